@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Coordinate reference systems (through GDAL and PROJ). The program works in projected metric systems only.
+#pragma once
+
+#include <string>
+
+namespace skysweep::raster {
+
+// WKT of what a user names ("EPSG:32615", WKT, PROJ string). Throws Error(usage), with a sentence that says what to use
+// instead, if it is unknown, geographic (degrees) or in other units than metres.
+std::string crs_from_user_input(const std::string& text);
+
+// WKT of a local metric frame without a place on Earth: what poses without CRS are in. Labelled so in every output.
+std::string local_metric_crs();
+
+// One line for people: "WGS 84 / UTM zone 15N (EPSG:32615)", or "local metric frame (no CRS given)".
+std::string crs_name(const std::string& wkt);
+
+// Whether both name the same system (axes as in GIS files).
+bool same_crs(const std::string& wkt_a, const std::string& wkt_b);
+
+// What the outputs say about heights: from a compound CRS its vertical part, otherwise that it is unknown.
+std::string vertical_reference(const std::string& wkt);
+
+}  // namespace skysweep::raster
