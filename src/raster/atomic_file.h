@@ -19,6 +19,9 @@ void write_atomically(const std::filesystem::path& path,
 // The same for bytes in memory.
 void write_bytes_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+// Removes what crashed runs left behind in `folder` and below it. Call it only while nobody else writes there.
+void remove_temporary_files(const std::filesystem::path& folder);
+
 // Free bytes on the file system that holds `path` (or the nearest parent that exists).
 std::uint64_t free_disk_space(const std::filesystem::path& path);
 

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/crs.h"
+
+#include <ogr_spatialref.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "raster/gdal/session.h"
+#include "raster/gdal/spatial_reference.h"
+
+namespace skysweep::raster {
+
+namespace {
+
+// WKT 1, because this is the form that survives the way through the keys of a GeoTIFF unchanged.
+constexpr const char* kLocalWkt =
+    "LOCAL_CS[\"local metric frame (no CRS given)\",UNIT[\"metre\",1,AUTHORITY[\"EPSG\",\"9001\"]],"
+    "AXIS[\"Easting\",EAST],AXIS[\"Northing\",NORTH]]";
+
+bool is_metre(double metres_per_unit) { return std::abs(metres_per_unit - 1.0) < 1e-9; }
+
+// "EPSG:32615", or nothing if no authority knows it.
+std::string authority_code(const OGRSpatialReference& crs) {
+  const char* authority = crs.GetAuthorityName(nullptr);
+  const char* code = crs.GetAuthorityCode(nullptr);
+  return authority && code ? std::string(authority) + ":" + code : std::string();
+}
+
+Error refusal(const std::string& text, const std::string& why) {
+  return usage_error("the coordinate reference system \"" + text + "\" " + why);
+}
+
+void require_usable(const OGRSpatialReference& crs, const std::string& text) {
+  if (crs.IsGeographic())
+    throw refusal(text,
+                  "is geographic (degrees), but maps are made in metres: use a projected one, e.g. the UTM zone "
+                  "EPSG:32601-32660 (north) or EPSG:32701-32760 (south)");
+  if (crs.IsGeocentric())
+    throw refusal(text, "is geocentric, but maps are made on a plane: use a projected one, e.g. a UTM zone");
+  if (!crs.IsProjected() && !crs.IsLocal())
+    throw refusal(text, "has no horizontal part: use a projected one, e.g. a UTM zone such as EPSG:32632");
+  const char* unit = nullptr;
+  if (!is_metre(crs.GetLinearUnits(&unit)))
+    throw refusal(text, "is in units of \"" + std::string(unit) +
+                            "\", but maps are made in metres: use its variant in metres, or a UTM zone");
+  if (crs.IsCompound() && !is_metre(crs.GetTargetLinearUnits("COMPD_CS|VERT_CS", &unit)))
+    throw refusal(text, "has heights in units of \"" + std::string(unit) +
+                            "\", but heights are in metres: use a vertical part in metres");
+}
+
+}  // namespace
+
+OGRSpatialReference spatial_reference_of(const std::string& wkt) {
+  OGRSpatialReference crs;
+  crs.importFromWkt(wkt.c_str());
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return crs;
+}
+
+std::string wkt_of(const OGRSpatialReference& crs) {
+  char* text = nullptr;
+  crs.exportToWkt(&text);
+  std::string wkt = text ? text : "";
+  CPLFree(text);
+  return wkt;
+}
+
+std::string crs_from_user_input(const std::string& text) {
+  const GdalSession gdal;
+  OGRSpatialReference crs;
+  // Limited to what is named in the text itself: a typing mistake must not open files or web pages.
+  if (text.empty() ||
+      crs.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
+    throw refusal(text, "is unknown: name it as \"EPSG:32632\", as WKT or as a PROJ string");
+  require_usable(crs, text);
+  return wkt_of(crs);
+}
+
+std::string local_metric_crs() { return kLocalWkt; }
+
+std::string crs_name(const std::string& wkt) {
+  const GdalSession gdal;
+  const OGRSpatialReference crs = spatial_reference_of(wkt);
+  const char* name = crs.GetName();
+  const std::string shown = name && *name ? name : "unnamed";
+  const std::string code = authority_code(crs);
+  return code.empty() ? shown : shown + " (" + code + ")";
+}
+
+bool same_crs(const std::string& wkt_a, const std::string& wkt_b) {
+  if (wkt_a == wkt_b) return true;
+  const GdalSession gdal;
+  const OGRSpatialReference b = spatial_reference_of(wkt_b);
+  return spatial_reference_of(wkt_a).IsSame(&b) != 0;
+}
+
+std::string vertical_reference(const std::string& wkt) {
+  const GdalSession gdal;
+  const OGRSpatialReference crs = spatial_reference_of(wkt);
+  const char* name = crs.IsCompound() ? crs.GetAttrValue("COMPD_CS|VERT_CS") : nullptr;
+  return name ? name : "unknown: as in the photographs' poses";
+}
+
+}  // namespace skysweep::raster
