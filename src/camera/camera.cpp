@@ -22,7 +22,7 @@ std::optional<Vec2d> Camera::project(Vec3d world) const {
 
 std::optional<Vec3d> Camera::ray(Vec2d pixel) const {
   const Vec2d distorted{(pixel.x - model_.cx_px) / model_.fx_px, (pixel.y - model_.cy_px) / model_.fy_px};
-  const std::optional<Vec2d> n = undistort(model_.distortion, distorted);
+  const std::optional<Vec2d> n = undistort(model_.distortion, distorted, fold_radius_squared_);
   if (!n) return std::nullopt;
   return normalized(transpose(pose_.cam_from_world) * Vec3d{n->x, n->y, 1});
 }

@@ -67,8 +67,8 @@ const char* to_string(ViewClass view_class);
 double off_nadir_deg(const Pose& pose);
 
 // Outline on the ground, counter-clockwise and convex: what the photograph shows of any surface between the heights
-// z_low and z_high. Rays that reach the ground beyond `max_distance_m` (or never: the horizon) are cut off there.
-// Empty if the camera is below z_low or sees nothing of it.
+// z_low and z_high. It ends at `max_distance_m` from the CoP, so that a view of the horizon has an outline too.
+// Empty if the camera is below z_low or sees nothing of it within the distance.
 std::vector<Vec2d> footprint(const Camera& camera, double z_low, double z_high, double max_distance_m);
 
 // Axis-aligned box of the view pyramid: from the CoP to the footprint at z_low (METHODS section 2). Key of the R*-tree.

@@ -31,10 +31,13 @@ Vec2d distort(const Distortion& d, Vec2d p) {
 }
 
 std::optional<Vec2d> undistort(const Distortion& d, Vec2d distorted) {
+  return undistort(d, distorted, fold_radius_squared(d));
+}
+
+std::optional<Vec2d> undistort(const Distortion& d, Vec2d distorted, double fold) {
   if (d.none()) return distorted;
   constexpr int kMaxIterations = 50;
   constexpr double kTolerance = 1e-13;
-  const double fold = fold_radius_squared(d);
   Vec2d p = distorted;
   // Start inside the fold: from outside Newton's method would settle on the folded branch.
   if (const double r2 = dot(p, p); r2 >= fold) p = (0.9 * std::sqrt(fold / r2)) * p;

@@ -42,6 +42,8 @@ Vec2d distort(const Distortion& d, Vec2d undistorted);
 
 // The inverse of `distort` by Newton's method; nothing if it does not converge to a point inside the fold radius.
 std::optional<Vec2d> undistort(const Distortion& d, Vec2d distorted);
+// The same for callers that keep the fold radius: finding it costs several times as much as the inversion itself.
+std::optional<Vec2d> undistort(const Distortion& d, Vec2d distorted, double fold_radius_squared);
 
 // Squared undistorted radius at which the radial polynomial stops growing: beyond it the lens model folds back and two
 // directions share one pixel. Infinity when it never folds.
