@@ -98,6 +98,7 @@ Array2d<Rgb8> read_photo(const fs::path& path) {
   const PhotoKind kind = readable_kind(path, bytes);
   if ((kind == PhotoKind::jpeg && !jpeg_is_complete(bytes)) || (kind == PhotoKind::png && !png_is_complete(bytes)))
     throw refused(path, "is cut off before its end: copy it from the camera again");
+  read_photo_size(path);  // refuses broken headers, about which OpenCV would print
   const cv::Mat image = decode(bytes);
   if (image.empty()) throw refused(path, "is damaged: it cannot be decoded");
   switch (image.type()) {
