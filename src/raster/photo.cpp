@@ -92,7 +92,6 @@ Array2d<Rgb8> rgb_from_bgr(const cv::Mat& image) {
 }  // namespace
 
 Array2d<Rgb8> read_photo(const fs::path& path) {
-  read_photo_size(path);                           // refuses broken headers, about which OpenCV would print
   constexpr std::uint64_t kMaxBytes = 1ull << 30;  // no photograph is larger; OpenCV counts bytes in an int
   const std::string bytes = read_bytes(path, kMaxBytes);
   const PhotoKind kind = readable_kind(path, bytes);
