@@ -7,9 +7,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace skysweep::settings {
+
+struct TomlNode;
 
 // One table of a TOML document. Reading functions return nothing when the key is absent and throw Error(usage), naming
 // file, line and key, when the value has the wrong type. Copies share the record of which keys were asked for.
@@ -33,13 +36,17 @@ class TomlTable {
   std::string where(const std::string& key) const;
 
   // Throws Error(usage) naming the first key (in this table or below) that nobody asked for, its line, and the nearest
-  // key that somebody did ask for.
+  // key that somebody did ask for. Call it when everything has been read: looking (`has`) counts as asking.
   void refuse_unknown() const;
 
  private:
-  struct Node;
-  explicit TomlTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
-  std::shared_ptr<Node> node_;
+  explicit TomlTable(std::shared_ptr<TomlNode> node) : node_(std::move(node)) {}
+  friend TomlTable layered(const TomlTable& base, const TomlTable& over);
+  std::shared_ptr<TomlNode> node_;
 };
+
+// `base` with the keys of `over` laid on it: tables merge key by key, of everything else (arrays too) the one in `over`
+// stands. Each key keeps the file and line it came from. The result has a record of asked keys of its own.
+TomlTable layered(const TomlTable& base, const TomlTable& over);
 
 }  // namespace skysweep::settings
