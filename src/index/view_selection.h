@@ -13,9 +13,12 @@
 namespace skysweep::index {
 
 struct ViewSelectionOptions {
-  int views = 8;                     // N: at most so many photographs for a tile
-  double max_off_nadir_deg = 40;     // steeper rays than this from nadir at a point do not count for the point
-  double min_baseline_ratio = 0.05;  // views closer together than this share of the depth add no height information
+  int views = 8;                      // N: at most so many photographs for a tile
+  double max_off_nadir_deg = 40;      // steeper rays than this from nadir at a point do not count for the point
+  double min_baseline_ratio = 0.05;   // views closer together than this share of the depth add no height information
+  double full_baseline_ratio = 0.25;  // farther apart than this they add no more than at this
+  int min_views = 3;  // every part of the tile is shown this often, where it can be, before any part more
+  // Nothing when the options can be used, else a sentence that says what to change.
   std::optional<std::string> problem() const;
 };
 
