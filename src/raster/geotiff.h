@@ -61,4 +61,7 @@ Raster<float> read_float_raster(const std::filesystem::path& path);
 Raster<Rgba8> read_color_raster(const std::filesystem::path& path);
 Raster<std::uint8_t> read_class_raster(const std::filesystem::path& path);
 
+// The labels alone, without reading the values. Throws Error(bad_input) as above.
+Labels read_labels(const std::filesystem::path& path);
+
 }  // namespace skysweep::raster

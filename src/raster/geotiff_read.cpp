@@ -64,8 +64,10 @@ class Reader {
     std::string problem;
     std::optional<GeoReference> georeference = georeference_of(*dataset_, problem);
     if (!georeference) throw refused(path_, problem);
-    return {std::move(values), std::move(*georeference), labels_of(*dataset_)};
+    return {std::move(values), std::move(*georeference), labels()};
   }
+
+  Labels labels() const { return labels_of(*dataset_); }
 
   void require(bool condition, const std::string& why) const {
     if (!condition) throw refused(path_, why);
@@ -129,5 +131,7 @@ Raster<std::uint8_t> read_class_raster(const fs::path& path) {
     if (mask.data()[i] == 0) values.data()[i] = 0;
   return file.finish(std::move(values));
 }
+
+Labels read_labels(const fs::path& path) { return Reader(path).labels(); }
 
 }  // namespace skysweep::raster

@@ -23,7 +23,7 @@ struct Lattice {
   Vec2d north_west_corner(TileKey key) const;
   Box2d extent(TileKey key) const;
 
-  // floor(coordinate / tile size).
+  // floor(coordinate / tile size), exact at the borders: the index of a tile's own south-west corner is the tile's.
   int index_at(int level, double coordinate) const;
   TileKey key_at(int level, Vec2d position) const {
     return {level, index_at(level, position.x), index_at(level, position.y)};

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "core/executor.h"
 #include "tiles/tile_store.h"
 
 namespace skysweep::tiles {
@@ -14,9 +15,16 @@ namespace skysweep::tiles {
 // mean square of the known ones; mask: measured if any is, else filled, else planar, else none.
 Tile merge_children(const std::array<const Tile*, 4>& children, int tile_cells);
 
-// Rebuilds every parent of the `changed` level-0 tiles, level by level, and the top tile; removes tiles of levels above
-// the plan's highest. `store` then holds levels 0..L-1 for all its level-0 tiles. The digest of a parent is made of its
-// children's. Returns the keys written.
+// Rebuilds every parent of the `changed` level-0 tiles (written, or removed), level by level, and the top tile; makes
+// those that are missing, because the map has grown to a higher level; removes parents that have no children left and
+// tiles of levels above the plan's highest. `store` then holds levels 0..L-1 for all its level-0 tiles, with the same
+// bytes whatever the order in which they came. The digest of a parent is made of its children's. The tiles of a level
+// are independent and run on the executor. Returns the keys written, finest level first.
+std::vector<TileKey> rebuild_parents(const TileStore& store, const std::vector<TileKey>& changed, Executor& executor);
 std::vector<TileKey> rebuild_parents(const TileStore& store, const std::vector<TileKey>& changed);
+
+// For the first start after a crash: what to give to rebuild_parents as `changed` so that parents written before their
+// children's last change become right again. Reads the labels of all tiles.
+std::vector<TileKey> find_outdated(const TileStore& store);
 
 }  // namespace skysweep::tiles

@@ -41,24 +41,34 @@ class TileStore {
             std::string software);
 
   const Lattice& lattice() const { return lattice_; }
+  const std::string& crs_wkt() const { return crs_wkt_; }
+
+  // Labels of a layer's files: "dem", "dem_max", "color", "confidence" or "mask".
+  raster::Labels labels(const std::string& layer, const std::string& input_digest) const;
 
   // Writes all layers; `dem` last, so that a tile whose dem exists is complete. `input_digest` goes into every file.
   // For the top tile, `plan` says where it lies.
   void write(TileKey key, const Tile& tile, const std::string& input_digest, const LevelPlan* plan = nullptr) const;
 
-  // Nothing if the tile does not exist; throws Error(bad_input) naming the file if it is damaged.
+  // Nothing if the tile does not exist or is incomplete: a layer is missing, or its layers have different digests
+  // because a crash fell between them. Throws Error(bad_input) naming the file if one is damaged or lies elsewhere.
   std::optional<Tile> read(TileKey key) const;
 
   // The digest the tile was written with; nothing if the tile is absent, incomplete or cannot be read.
   std::optional<std::string> input_digest(TileKey key) const;
 
-  // Tiles of a level that are complete on disk, sorted.
+  // Tiles of a level of which all files are on disk, sorted.
   std::vector<TileKey> list(int level) const;
+
+  // Removes a tile; nothing happens if it is absent.
   void remove(TileKey key) const;
 
   std::filesystem::path path(TileKey key, const std::string& layer) const;
 
  private:
+  raster::GeoReference georeference(TileKey key, const LevelPlan* plan) const;
+  bool has_all_files(TileKey key) const;
+
   std::filesystem::path folder_;
   Lattice lattice_;
   std::string crs_wkt_;
