@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interchangeable engines of the sweep. All give the same answer within the bounds of tests/contract.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/executor.h"
+#include "sweep/match_result.h"
+#include "sweep/sweep_problem.h"
+
+namespace skysweep::sweep {
+
+enum class Backend {
+  reference,  // scalar, double precision, written to be read: the oracle of the others
+  cpu,        // SIMD, the best instruction set the machine has, chosen at run time
+};
+
+const char* to_string(Backend backend);
+
+// The search over planes. Rows of blocks run through `executor`; the result does not depend on how.
+MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor& executor);
+
+// Instruction sets of the cpu backend that this machine has, best first; and the one in use.
+std::vector<std::string> cpu_instruction_sets();
+std::string cpu_instruction_set_in_use();
+// Uses exactly this one from now on, for the whole process (tests, and projects made on another machine). Throws
+// Error(usage) if the machine lacks it.
+void use_cpu_instruction_set(const std::string& name);
+
+}  // namespace skysweep::sweep

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A view laid out for the inner loops: the camera as plain numbers, the window levels as raw pointers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sweep/sweep_problem.h"
+
+namespace skysweep::sweep::cpu {
+
+constexpr int kSegmentCells = 16;                               // cells between two knots of the projection
+constexpr int kSegmentsPerBlock = kBlockCells / kSegmentCells;
+constexpr int kKnotsBefore = 2;                                 // knots to the left of the first segment
+constexpr int kKnots = kSegmentsPerBlock + 5;                   // and three to the right of the last one's first
+constexpr int kMaxWindowLevels = 9;
+
+struct LevelKernel {
+  const std::uint16_t* pixels = nullptr;  // LuminanceLevel::values
+  int stride = 0;
+  int width = 0, height = 0;
+  float scale = 1;  // 2^-level
+};
+
+struct ViewKernel {
+  Mat3d cam_from_world;
+  Vec3d center;
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  camera::Distortion distortion;
+  double fold_radius_squared = 0;
+  float width = 0, height = 0;
+  std::array<LevelKernel, kMaxWindowLevels> levels;
+  const camera::Camera* camera = nullptr;
+};
+
+ViewKernel make_view_kernel(const View& view, const SweepOptions& options);
+
+// A row of at most kBlockCells cells within one block, with what is known about them so far.
+struct RowState {
+  alignas(64) std::array<float, kBlockCells> best;
+  alignas(64) std::array<float, kBlockCells> below;
+  alignas(64) std::array<float, kBlockCells> above;
+  alignas(64) std::array<float, kBlockCells> previous;  // cost at the plane before
+  alignas(64) std::array<float, kBlockCells> sum;
+  alignas(64) std::array<float, kBlockCells> seen;
+  alignas(64) std::array<float, kBlockCells> views;
+  alignas(64) std::array<std::int32_t, kBlockCells> plane;
+};
+
+struct RowJob {
+  const std::vector<ViewKernel>* views = nullptr;
+  const SweepOptions* options = nullptr;
+  Vec2d first_cell;  // centre of the first cell, tile frame
+  double cell_m = 1;
+  double dz_m = 1;
+  int cells = 0;
+  PlaneRange planes;
+};
+
+}  // namespace skysweep::sweep::cpu

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace skysweep::sweep {
+namespace {
+
+constexpr double kSmallestSigmaPlanes = 0.1;
+// Costs come in single precision: a bend of the curve below this share of the cost is rounding, not texture.
+constexpr double kSmallestBend = 1e-5;
+
+struct Height {
+  double z, sigma;
+};
+
+std::optional<Height> height_of_cell(const SweepProblem& problem, const MatchResult& m, int column, int row) {
+  const SweepOptions& options = problem.options;
+  const double cost = m.cost(column, row);
+  const double below = m.cost_below(column, row), above = m.cost_above(column, row);
+  if (!std::isfinite(cost) || !std::isfinite(below) || !std::isfinite(above)) return std::nullopt;
+  if (cost > options.max_cost || cost > options.max_cost_to_mean * m.mean_cost(column, row)) return std::nullopt;
+  const double bend = below - 2 * cost + above;
+  if (!(bend > kSmallestBend * (1 + cost))) return std::nullopt;
+  const double offset = 0.5 * (below - above) / bend;  // in planes, within [-1/2, 1/2] because cost is the least
+  const double sigma_planes = std::max(kSmallestSigmaPlanes, cost / bend);
+  return Height{(m.plane(column, row) + offset) * problem.dz_m, sigma_planes * problem.dz_m};
+}
+
+}  // namespace
+
+Heights heights_from_matches(const SweepProblem& problem, const MatchResult& matches) {
+  constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
+  const int width = problem.grid.width, height = problem.grid.height;
+  Heights out{Array2d<float>(width, height, kNoData), Array2d<float>(width, height, kNoData)};
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const std::optional<Height> found = height_of_cell(problem, matches, column, row);
+      if (!found) continue;
+      out.height_m(column, row) = static_cast<float>(found->z);
+      out.sigma_m(column, row) = static_cast<float>(found->sigma);
+    }
+  }
+  return out;
+}
+
+}  // namespace skysweep::sweep

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// True-orthophoto colours of a surface: each cell takes its colour from the view that agrees best with the others among
+// those that the surface itself does not hide.
+#pragma once
+
+#include "core/executor.h"
+#include "sweep/sweep_problem.h"
+#include "sweep/sweep_result.h"
+
+namespace skysweep::sweep {
+
+// Fills color, color_view, planar and view_count of `result` from its heights. Cells without height stay without colour
+// unless options.planar_fallback: then they are coloured as if they lay on the lowest plane searched, from the view that
+// shows them nearest its image centre, and marked planar.
+void colorize(const SweepProblem& problem, Executor& executor, SweepResult& result);
+
+}  // namespace skysweep::sweep

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane sweep: heights, their standard deviation and true-orthophoto colours of a grid of cells from photographs with
+// known poses (METHODS section 4). Pure: the same problem gives the same bits for any executor.
+#pragma once
+
+#include "sweep/backend.h"
+#include "sweep/sweep_problem.h"
+#include "sweep/sweep_result.h"
+
+namespace skysweep::sweep {
+
+SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor);
+
+}  // namespace skysweep::sweep

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of the plane sweep. No tuning number of the sweep stands anywhere else.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace skysweep::sweep {
+
+enum class Aggregation {
+  all_views,    // mean over all views that show the sample
+  better_half,  // mean over the floor(n/2) views that agree best with the others: forgives occlusion
+};
+
+struct SweepOptions {
+  // Support windows of 2^min x 2^min to 2^max x 2^max pixels: the matching cost is the sum over these mipmap levels.
+  // Larger windows steady the match on weak texture and eat roof edges.
+  int window_level_min = 0;
+  int window_level_max = 3;
+
+  Aggregation aggregation = Aggregation::better_half;
+
+  // A sample that fewer views show has no cost. At least 2.
+  int min_views = 2;
+
+  // Mean absolute difference in grey levels above which the best plane is not believed.
+  double max_cost = 40;
+
+  // The cost of the best plane must stay below the mean over all planes searched by this factor, or nothing
+  // distinguishes it: 1 believes everything.
+  double max_cost_to_mean = 0.9;
+
+  // Parallax of one plane step as a share of a pixel: how dz is derived when it is not given (0.6 loses nothing after
+  // sub-plane fitting; finer costs time).
+  double plane_step_px = 0.6;
+
+  // Colour for cells without height from a horizontal plane at the lowest height searched; marked as such in the mask.
+  bool planar_fallback = false;
+
+  std::optional<std::string> problem() const;
+  friend bool operator==(const SweepOptions&, const SweepOptions&) = default;
+};
+
+}  // namespace skysweep::sweep

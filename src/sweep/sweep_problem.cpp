@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/sweep_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skysweep::sweep {
+
+std::optional<std::string> SweepOptions::problem() const {
+  if (window_level_min < 0 || window_level_max < window_level_min || window_level_max > 8)
+    return "window levels must satisfy 0 <= window_level_min <= window_level_max <= 8";
+  if (min_views < 2 || min_views > kMaxViews) return "min_views must lie between 2 and " + std::to_string(kMaxViews);
+  if (!(max_cost > 0)) return "max_cost must be positive (grey levels)";
+  if (!(max_cost_to_mean > 0 && max_cost_to_mean <= 1)) return "max_cost_to_mean must lie above 0 and not above 1";
+  if (!(plane_step_px > 0.01 && plane_step_px <= 4)) return "plane_step_px must lie between 0.01 and 4";
+  return std::nullopt;
+}
+
+void PlaneRange::include(PlaneRange other) {
+  if (other.empty()) return;
+  if (empty()) {
+    *this = other;
+    return;
+  }
+  first = std::min(first, other.first);
+  last = std::max(last, other.last);
+}
+
+PlaneRange planes_between(double z_low, double z_high, double dz_m, int margin) {
+  SKY_CHECK(dz_m > 0 && z_low <= z_high);
+  return {static_cast<int>(std::floor(z_low / dz_m)) - margin, static_cast<int>(std::ceil(z_high / dz_m)) + margin};
+}
+
+void SweepProblem::search_everywhere(PlaneRange planes) {
+  const auto blocks = [](int cells) { return (cells + kBlockCells - 1) / kBlockCells; };
+  block_planes = Array2d<PlaneRange>(blocks(grid.width), blocks(grid.height), planes);
+}
+
+PlaneRange SweepProblem::all_planes() const {
+  PlaneRange all;
+  for (const PlaneRange& range : block_planes) all.include(range);
+  return all;
+}
+
+void SweepProblem::check() const {
+  SKY_CHECK(grid.width > 0 && grid.height > 0 && grid.cell_m > 0 && dz_m > 0);
+  SKY_CHECK_LE(views.size(), static_cast<std::size_t>(kMaxViews));
+  SKY_CHECK_EQ(block_planes.width(), (grid.width + kBlockCells - 1) / kBlockCells);
+  SKY_CHECK_EQ(block_planes.height(), (grid.height + kBlockCells - 1) / kBlockCells);
+  SKY_CHECK(!options.problem());
+  for (const View& view : views) {
+    SKY_CHECK(view.image != nullptr);
+    SKY_CHECK_EQ(view.image->width(), view.camera.model().width_px);
+    SKY_CHECK_EQ(view.image->height(), view.camera.model().height_px);
+    SKY_CHECK_GE(view.base_level, 0);
+  }
+}
+
+double sample_count(const SweepProblem& problem) {
+  double planes = 0;
+  for (int by = 0; by < problem.block_planes.height(); ++by) {
+    for (int bx = 0; bx < problem.block_planes.width(); ++bx) {
+      const int width = std::min(kBlockCells, problem.grid.width - bx * kBlockCells);
+      const int height = std::min(kBlockCells, problem.grid.height - by * kBlockCells);
+      planes += static_cast<double>(width) * height * problem.block_planes(bx, by).count();
+    }
+  }
+  const int levels = problem.options.window_level_max - problem.options.window_level_min + 1;
+  return planes * problem.views.size() * levels;
+}
+
+}  // namespace skysweep::sweep

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the plane sweep is asked: a grid of cells, a stack of height planes, and the photographs that look at them
+// (METHODS section 4).
+#pragma once
+
+#include <vector>
+
+#include "camera/camera.h"
+#include "core/array2d.h"
+#include "core/vec.h"
+#include "sweep/image_pyramid.h"
+#include "sweep/sweep_options.h"
+
+namespace skysweep::sweep {
+
+// Cells in the tile's own frame (a local origin near the cells, so that coordinates are small); row 0 is the northernmost.
+struct Grid {
+  int width = 0;
+  int height = 0;
+  double cell_m = 1;
+  Vec2d north_west_corner;
+
+  Vec2d cell_center(int column, int row) const {
+    return {north_west_corner.x + (column + 0.5) * cell_m, north_west_corner.y - (row + 0.5) * cell_m};
+  }
+};
+
+// Planes z = k dz for k = first..last, on the absolute lattice: a wider range never moves a plane.
+struct PlaneRange {
+  int first = 0;
+  int last = -1;
+
+  bool empty() const { return last < first; }
+  int count() const { return empty() ? 0 : last - first + 1; }
+  void include(PlaneRange other);
+  friend bool operator==(PlaneRange, PlaneRange) = default;
+};
+
+// The planes that bracket all heights from z_low to z_high, `margin` planes more on both sides.
+PlaneRange planes_between(double z_low, double z_high, double dz_m, int margin);
+
+struct View {
+  const ImagePyramid* image = nullptr;
+  camera::Camera camera;  // in the tile's frame
+  int base_level = 0;     // mipmap level whose pixels are about as large as a cell: 0 when a cell is no larger than a pixel
+};
+
+// Planes are searched block by block: each block of kBlockCells x kBlockCells cells has a range of its own.
+constexpr int kBlockCells = 64;
+
+// More views than this cannot serve one tile: their costs are kept side by side in registers and stack.
+constexpr int kMaxViews = 32;
+
+struct SweepProblem {
+  Grid grid;
+  double dz_m = 1;
+  // One range per block, (0, 0) the north-west one; empty ranges leave their cells without height.
+  Array2d<PlaneRange> block_planes;
+  std::vector<View> views;  // their order decides ties: keep it independent of arrival order
+  SweepOptions options;
+
+  // All blocks search the same planes.
+  void search_everywhere(PlaneRange planes);
+  PlaneRange planes_at(int column, int row) const { return block_planes(column / kBlockCells, row / kBlockCells); }
+  PlaneRange all_planes() const;
+
+  // A bug in the caller, not bad input: aborts unless views, options and ranges fit together.
+  void check() const;
+};
+
+// pixels x planes x views x window levels: the samples an exhaustive sweep of this problem takes.
+double sample_count(const SweepProblem& problem);
+
+}  // namespace skysweep::sweep

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every backend, on every instruction set the machine has, must find what the scalar double-precision reference finds:
+// heights within 1e-3 of a plane step on 99.99 % of the cells, and a height where, and only where, the reference has one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/executor.h"
+#include "sweep/backend.h"
+#include "sweep/heights.h"
+#include "sweep/synthetic_views.h"
+
+namespace skysweep::sweep {
+namespace {
+
+using test::SyntheticProblem;
+
+struct ContractCase {
+  std::string name;
+  std::function<SyntheticProblem()> make;
+};
+
+double rolling(double x, double y) { return 0.8 * std::sin(x / 3) + 0.6 * std::cos(y / 4); }
+double flat(double, double) { return 0.37; }
+
+SyntheticProblem standard(int views, const test::Surface& surface, const camera::CameraModel& model = test::small_camera()) {
+  SyntheticProblem p = test::ring_of_views(views, model, surface);
+  test::set_grid(p.problem, 80, 0.1, 0.12, -2, 2);
+  return p;
+}
+
+std::vector<ContractCase> cases() {
+  const auto distorted = [] {
+    camera::CameraModel model = test::small_camera();
+    model.distortion = {-0.3964, 0.1975, 1e-3, -2e-3, 0};
+    model.cx_px += 7.3;
+    return model;
+  };
+  return {
+      {"eight_views_of_rolling_ground", [] { return standard(8, rolling); }},
+      {"two_views", [] { return standard(2, rolling); }},
+      {"thirty_two_views",
+       [] {
+         SyntheticProblem p = test::ring_of_views(32, test::small_camera(200, 200, 160), flat);
+         test::set_grid(p.problem, 70, 0.15, 0.2, -1.5, 1.5);
+         return p;
+       }},
+      {"all_views_aggregated",
+       [] {
+         SyntheticProblem p = standard(5, rolling);
+         p.problem.options.aggregation = Aggregation::all_views;
+         return p;
+       }},
+      {"single_pixels_only",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         p.problem.options.window_level_max = 0;
+         return p;
+       }},
+      {"large_windows_only",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         p.problem.options.window_level_min = 2;
+         p.problem.options.window_level_max = 6;
+         return p;
+       }},
+      {"strong_lens_distortion", [distorted] { return standard(7, rolling, distorted()); }},
+      {"lens_that_folds_inside_the_photograph",
+       [] {
+         camera::CameraModel model = test::small_camera(150);
+         model.distortion.k1 = -0.45;
+         return standard(5, flat, model);
+       }},
+      {"photographs_that_cover_a_part",
+       [] {
+         SyntheticProblem p = test::ring_of_views(6, test::small_camera(300, 121, 97), rolling, 3, 5);
+         test::set_grid(p.problem, 100, 0.18, 0.12, -2, 2);
+         return p;
+       }},
+      {"some_cells_seen_by_one_view",
+       [] {
+         SyntheticProblem p = test::ring_of_views(3, test::small_camera(300, 150, 90), rolling, 5, 7);
+         p.problem.options.min_views = 2;
+         test::set_grid(p.problem, 100, 0.2, 0.12, -2, 2);
+         return p;
+       }},
+      {"cells_coarser_than_pixels",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         test::set_grid(p.problem, 65, 0.4, 0.4, -3, 3);
+         int level = 0;
+         for (View& view : p.problem.views) view.base_level = 1 + level++ % 2;
+         return p;
+       }},
+      {"planes_below_and_above_the_cameras",
+       [] {
+         SyntheticProblem p = standard(4, flat);
+         test::set_grid(p.problem, 40, 0.1, 0.5, -20, 33);
+         return p;
+       }},
+      {"blocks_with_planes_of_their_own",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         p.problem.block_planes(0, 0) = {-3, 9};
+         p.problem.block_planes(1, 1) = {};
+         p.problem.block_planes(1, 0) = {2, 2};
+         return p;
+       }},
+      {"oblique_views",
+       [] {
+         SyntheticProblem p;
+         for (int i = 0; i < 5; ++i) {
+           const double yaw = 60 * i;
+           const double s = std::sin(yaw * 0.0174532925199433), c = std::cos(yaw * 0.0174532925199433);
+           p.add_view(test::small_camera(), {camera::rotation_from_yaw_pitch_roll(yaw, -50, 3), {-25 * s, -25 * c, 30}}, flat);
+         }
+         test::set_grid(p.problem, 100, 0.12, 0.15, -2, 2);
+         return p;
+       }},
+  };
+}
+
+// Cells whose cost differs by more than 2e-3 grey levels, or whose number of views differs.
+std::size_t cells_with_other_costs(const MatchResult& expected, const MatchResult& actual) {
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < expected.cost.size(); ++i) {
+    const float e = expected.cost.data()[i], a = actual.cost.data()[i];
+    if (std::isinf(e) && std::isinf(a)) continue;
+    if (!(std::abs(e - a) <= 2e-3f) || expected.view_count.data()[i] != actual.view_count.data()[i]) ++bad;
+  }
+  return bad;
+}
+
+class MatchingContract : public testing::TestWithParam<std::string> {
+ protected:
+  void TearDown() override { use_cpu_instruction_set(best_); }
+  const std::string best_ = cpu_instruction_sets().front();
+};
+
+TEST_P(MatchingContract, cpu_agrees_with_the_reference) {
+  use_cpu_instruction_set(GetParam());
+  ASSERT_EQ(cpu_instruction_set_in_use(), GetParam());
+  SerialExecutor serial;
+  std::size_t cells = 0, with_height = 0, different = 0, presence_differs = 0;
+  for (const ContractCase& c : cases()) {
+    const SyntheticProblem p = c.make();
+    p.problem.check();
+    const MatchResult expected = match_planes(p.problem, Backend::reference, serial);
+    const MatchResult actual = match_planes(p.problem, Backend::cpu, serial);
+    const Heights a = heights_from_matches(p.problem, expected), b = heights_from_matches(p.problem, actual);
+    std::size_t different_here = 0;
+    for (std::size_t i = 0; i < a.height_m.size(); ++i) {
+      const float ha = a.height_m.data()[i], hb = b.height_m.data()[i];
+      ++cells;
+      if (std::isnan(ha) != std::isnan(hb)) ++presence_differs;
+      if (std::isnan(ha) || std::isnan(hb)) continue;
+      ++with_height;
+      // Single precision of the stored height itself is below this bound.
+      if (std::abs(ha - hb) > 1e-3 * p.problem.dz_m) ++different_here;
+    }
+    EXPECT_LE(different_here, a.height_m.size() / 1000) << c.name;
+    EXPECT_LE(cells_with_other_costs(expected, actual), a.height_m.size() / 1000) << c.name;
+    different += different_here;
+  }
+  EXPECT_GT(with_height, cells / 3) << "the cases must have something to compare";
+  EXPECT_LE(different, with_height / 10000) << "of " << with_height;
+  EXPECT_LE(presence_differs, cells / 10000) << "of " << cells;
+}
+
+INSTANTIATE_TEST_SUITE_P(InstructionSets, MatchingContract, testing::ValuesIn(cpu_instruction_sets()),
+                         [](const auto& instance) { return instance.param; });
+
+TEST(Backends, unknown_instruction_set_is_refused) { EXPECT_THROW(use_cpu_instruction_set("AVX9"), Error); }
+
+}  // namespace
+}  // namespace skysweep::sweep
