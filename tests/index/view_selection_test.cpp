@@ -120,12 +120,13 @@ TEST(ViewSelection, leaves_out_views_closer_than_the_least_baseline) {
 }
 
 TEST(ViewSelection, serves_a_corner_that_few_show_before_it_repeats_the_rest) {
-  // Nine excellent views of the western half, three poorer ones that alone show the eastern border.
+  // Four good views of all but the eastern border, three poor ones of nothing but the border.
   std::vector<ViewCandidate> candidates;
-  for (int i = 0; i < 9; ++i)
-    candidates.push_back(view("west" + std::to_string(i), {-40.0 + 3 * i, 10.0 * i - 20, 100}));
-  for (int i = 0; i < 3; ++i) candidates.push_back(view("east" + std::to_string(i), {75, 25.0 * i, 130}));
-  const ViewSelection selection = select_views(candidates, kTile, 0, 0, {});
+  for (int i = 0; i < 4; ++i) candidates.push_back(view("west" + std::to_string(i), {-20, 3 + 15.0 * i, 100}));
+  for (int i = 0; i < 3; ++i) candidates.push_back(view("east" + std::to_string(i), {115, 5 + 20.0 * i, 100}));
+  ViewSelectionOptions options;
+  options.views = 6;
+  const ViewSelection selection = select_views(candidates, kTile, 0, 0, options);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(names(candidates, selection).count("east" + std::to_string(i)));
   EXPECT_GE(times_shown(candidates, selection, {51.2, 25, 0}), 3);
 }
