@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// A photograph of the world: four rays a pixel, and what sensor and exposure add.
+#pragma once
+
+#include <cstdint>
+
+#include "camera/pose.h"
+#include "core/array2d.h"
+#include "core/color.h"
+#include "core/executor.h"
+#include "scene/render/pixel_rays.h"
+#include "scene/world/world.h"
+
+namespace skysweep::scene {
+
+struct Exposure {
+  double gain = 1;         // factor on linear light
+  double noise_sigma = 0;  // grey levels; 0: no noise
+  std::uint64_t noise_seed = 0;
+};
+
+Array2d<Rgb8> take_photograph(const World& world, const camera::CameraModel& model, const PixelRays& rays,
+                              const camera::Pose& pose, const Exposure& exposure, Executor& executor);
+
+}  // namespace skysweep::scene

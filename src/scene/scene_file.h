@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes as TOML files; config/scenes/ holds examples. The keys are the members of the structs in scene/scene.h:
+//
+//   seed, origin = [x, y, z], crs, area_m = [width, height]
+//   [terrain] [town] [[building]] [texture] [light] [camera] [flight] [photographs] [truth]
+//
+// [camera] is width_px, height_px, focal_px and, if wanted, principal_point_px = [cx, cy] and
+// distortion = [k1, k2, p1, p2, k3]. [town] present means a town; everything absent has the default of its member.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace skysweep::scene {
+
+// Throws Error(usage) naming file, line and key: wrong values, unknown keys.
+Scene read_scene(const std::filesystem::path& path);
+
+// The same from text; `name` stands for the file in messages.
+Scene parse_scene(const std::string& text, const std::string& name);
+
+// All parameters as JSON, with what depends on others resolved.
+std::string scene_to_json(const Scene& scene);
+
+}  // namespace skysweep::scene

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <vector>
+
+#include "camera/camera.h"
+#include "core/error.h"
+#include "core/random.h"
+#include "formats/pose_set.h"
+#include "formats/pose_writers.h"
+#include "raster/atomic_file.h"
+#include "raster/crs.h"
+#include "raster/digest.h"
+#include "raster/photo.h"
+#include "scene/flight_plan.h"
+#include "scene/render/photograph.h"
+#include "scene/render/truth.h"
+#include "scene/scene_file.h"
+#include "scene/world/world.h"
+
+namespace skysweep::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kExposureStream = 0xe0;
+
+void require_usable(const Scene& scene, const std::vector<camera::Pose>& poses, const Box2d& visible) {
+  if (const auto problem = scene.camera.problem())
+    throw usage_error("the camera of the scene cannot be used: " + *problem);
+  constexpr double kMostVisible_m = 1e5, kMostCells = 4e8;
+  if (std::max(visible.width(), visible.height()) > kMostVisible_m)
+    throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
+  const double cell = scene.truth_cell_m();
+  if (scene.area_m.x / cell * (scene.area_m.y / cell) > kMostCells)
+    throw usage_error("the truth of the scene would have more than 400 million cells: set a larger truth.cell_m");
+  if (poses.size() > 9999)
+    throw usage_error("the flight of the scene takes " + std::to_string(poses.size()) +
+                      " photographs, more than the 9999 that can be numbered: ask for less overlap or area");
+}
+
+std::vector<formats::PosedImage> name_photographs(const Scene& scene, const std::vector<camera::Pose>& poses) {
+  const char* ending = scene.photographs.format == PhotoFormat::png ? "png" : "jpg";
+  std::vector<formats::PosedImage> out;
+  for (const camera::Pose& pose : poses) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%04d.%s", static_cast<int>(out.size()) + 1, ending);
+    out.push_back(
+        {name, scene.camera, {pose.cam_from_world, camera::snap_position(pose.center + scene.origin)}, "simulated"});
+  }
+  return out;
+}
+
+// Photographs of another scene beside these would be taken for part of this one.
+void require_no_others(const fs::path& images, const std::vector<formats::PosedImage>& ours) {
+  if (!fs::exists(images)) return;
+  std::set<std::string> names;
+  for (const formats::PosedImage& image : ours) names.insert(image.name);
+  for (const std::string& name : raster::list_photos(images))
+    if (!names.contains(name))
+      throw usage_error((images / name).string() + " is not of this scene: simulate into an empty folder");
+}
+
+Exposure exposure_of(const Scene& scene, std::size_t index) {
+  Random random(mix64(scene.seed) ^ mix64(kExposureStream + (index << 8)));
+  Exposure out;
+  out.noise_seed = random.next();
+  const double deviation = random.normal();
+  if (scene.photographs.gain_spread > 0) out.gain = std::exp(scene.photographs.gain_spread * deviation);
+  out.noise_sigma = scene.photographs.noise_sigma;
+  return out;
+}
+
+void write_truth(const Scene& scene, const TruthGrid& grid, const TruthLayers& truth, const std::string& software,
+                 const fs::path& folder) {
+  const std::string crs = scene.crs.empty() ? raster::local_metric_crs() : raster::crs_from_user_input(scene.crs);
+  const raster::GeoReference where{crs, grid.north_west_corner, grid.cell_m};
+  const std::string digest = raster::digest_of_bytes(scene_to_json(scene));
+  write_geotiff(folder / "dsm.tif",
+                raster::Raster<float>{
+                    truth.dsm, where, {"surface height", "metre", raster::vertical_reference(crs), software, digest}});
+  write_geotiff(folder / "ortho.tif", raster::Raster<Rgba8>{truth.ortho, where, {"colour", "", "", software, digest}});
+  write_geotiff(folder / "views.tif",
+                raster::Raster<std::uint8_t>{truth.views, where, {"number of photographs", "", "", software, digest}});
+}
+
+}  // namespace
+
+Simulation simulate(const Scene& scene, const fs::path& folder, Executor& executor, const SimulationOptions& options) {
+  const std::vector<camera::Pose> poses = plan_flight(scene);
+  const Box2d visible = visible_ground(scene, poses);
+  require_usable(scene, poses, visible);
+  const std::vector<formats::PosedImage> photographs = name_photographs(scene, poses);
+  raster::require_writable_folder(folder);
+  require_no_others(folder / "images", photographs);
+  formats::write_poses_csv(folder / "poses.csv", photographs);
+  formats::write_colmap_text(folder / "sparse", photographs);
+  raster::write_bytes_atomically(folder / "scene.json", scene_to_json(scene));
+
+  const World world(scene, visible);
+  const PixelRays rays(scene.camera);
+  const int total = static_cast<int>(poses.size()) + 1;
+  const auto report = [&](int done) {
+    if (options.progress) options.progress(done, total);
+  };
+  std::vector<camera::Camera> cameras;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Array2d<Rgb8> photo = take_photograph(world, scene.camera, rays, poses[i], exposure_of(scene, i), executor);
+    raster::write_image(folder / "images" / photographs[i].name, photo, scene.photographs.jpeg_quality);
+    cameras.emplace_back(scene.camera, poses[i]);
+    report(static_cast<int>(cameras.size()));
+  }
+  const TruthGrid grid = truth_grid(scene);
+  write_truth(scene, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
+              folder / "truth");
+  report(total);
+  return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};
+}
+
+}  // namespace skysweep::scene

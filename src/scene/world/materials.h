@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What surfaces look like: how much light of each colour they send back, at every point.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/vec.h"
+#include "scene/scene.h"
+#include "scene/world/tracer.h"
+
+namespace skysweep::scene {
+
+// Linear light of red, green and blue.
+struct LinearRgb {
+  float r = 0, g = 0, b = 0;
+};
+inline LinearRgb operator*(float s, LinearRgb c) { return {s * c.r, s * c.g, s * c.b}; }
+inline LinearRgb operator+(LinearRgb a, LinearRgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+
+class Materials {
+ public:
+  // The references must outlive the object.
+  Materials(const Scene& scene, const std::optional<StreetPlan>& streets, const std::vector<SolidBox>& boxes);
+
+  // Diffuse reflectance, 0 to 1. The point must be on a surface.
+  LinearRgb reflectance(const SurfacePoint& point) const;
+
+ private:
+  LinearRgb ground(Vec2d p) const;
+  LinearRgb top(const SolidBox& box, Vec2d local) const;
+  LinearRgb wall(const SolidBox& box, const SurfacePoint& point) const;
+
+  const std::optional<StreetPlan>& streets_;
+  const std::vector<SolidBox>& boxes_;
+  std::uint32_t seed_;
+  float contrast_;
+  double per_finest_;  // 1 / size of the finest detail
+};
+
+}  // namespace skysweep::scene

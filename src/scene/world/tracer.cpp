@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/world/tracer.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/check.h"
+#include "core/error.h"
+
+namespace skysweep::scene {
+namespace {
+
+constexpr int kFacesOfBox = 5;  // top and four walls; nobody sees the bottom
+constexpr unsigned kGroundId = 0, kBoxesId = 1;
+
+// Outward normal and its distance from the box's centre in plan, for faces 1 to 4: +u, +v, -u, -v.
+struct Wall {
+  Vec2d normal;
+  double reach;
+};
+Wall wall(const SolidBox& box, int face) {
+  switch (face) {
+    case 1: return {box.axis_u, box.half.x};
+    case 2: return {box.axis_v(), box.half.y};
+    case 3: return {-1.0 * box.axis_u, box.half.x};
+    default: return {-1.0 * box.axis_v(), box.half.y};
+  }
+}
+
+struct Mesh {
+  std::vector<Vec3d> vertices;
+  std::vector<unsigned> quads;  // four indices each
+
+  void add_quad(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
+    const auto first = static_cast<unsigned>(vertices.size());
+    vertices.insert(vertices.end(), {a, b, c, d});
+    quads.insert(quads.end(), {first, first + 1, first + 2, first + 3});
+  }
+};
+
+// Fine enough that the mesh finds the right piece of ground; the exact place comes from the closed form.
+Mesh ground_mesh(const Ground& ground, const Box2d& extent) {
+  constexpr double kPerWave = 24, kMaxVertices = 4e6;
+  Mesh mesh;
+  const double longest = std::max(extent.width(), extent.height());
+  double spacing = ground.level() ? longest : ground.shortest_wave_m() / kPerWave;
+  spacing = std::max(spacing, std::sqrt(extent.width() * extent.height() / kMaxVertices));
+  const int columns = 1 + static_cast<int>(std::ceil(extent.width() / spacing));
+  const int rows = 1 + static_cast<int>(std::ceil(extent.height() / spacing));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const Vec2d p{extent.min.x + extent.width() * column / (columns - 1),
+                    extent.min.y + extent.height() * row / (rows - 1)};
+      mesh.vertices.push_back({p.x, p.y, ground.at(p).z});
+      if (row == 0 || column == 0) continue;
+      const auto here = static_cast<unsigned>(row * columns + column), south = here - static_cast<unsigned>(columns);
+      mesh.quads.insert(mesh.quads.end(), {south - 1, south, here, here - 1});
+    }
+  return mesh;
+}
+
+Mesh box_mesh(const std::vector<SolidBox>& boxes) {
+  Mesh mesh;
+  for (const SolidBox& box : boxes) {
+    const auto corner = [&](double u, double v, double z) {
+      const Vec2d p = box.center + (u * box.half.x) * box.axis_u + (v * box.half.y) * box.axis_v();
+      return Vec3d{p.x, p.y, z};
+    };
+    const double low = box.z_low, high = box.z_high;
+    mesh.add_quad(corner(-1, -1, high), corner(1, -1, high), corner(1, 1, high), corner(-1, 1, high));
+    mesh.add_quad(corner(1, -1, low), corner(1, 1, low), corner(1, 1, high), corner(1, -1, high));
+    mesh.add_quad(corner(1, 1, low), corner(-1, 1, low), corner(-1, 1, high), corner(1, 1, high));
+    mesh.add_quad(corner(-1, 1, low), corner(-1, -1, low), corner(-1, -1, high), corner(-1, 1, high));
+    mesh.add_quad(corner(-1, -1, low), corner(1, -1, low), corner(1, -1, high), corner(-1, -1, high));
+  }
+  return mesh;
+}
+
+void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned id) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), mesh.vertices.size()));
+  auto* quads = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                                               4 * sizeof(unsigned), mesh.quads.size() / 4));
+  if (!vertices || !quads)
+    throw failure("not enough memory for the geometry of the scene: make the mapped area smaller");
+  for (const Vec3d& v : mesh.vertices)
+    for (const double coordinate : {v.x, v.y, v.z}) *vertices++ = static_cast<float>(coordinate);
+  std::copy(mesh.quads.begin(), mesh.quads.end(), quads);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+// Distance along the ray to the plane through `point`.
+double to_plane(const Ray& ray, Vec3d normal, Vec3d point) {
+  return dot(normal, point - ray.origin) / dot(normal, ray.direction);
+}
+
+}  // namespace
+
+struct Tracer::Embree {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  ~Embree() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+};
+
+Tracer::Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const Box2d& extent)
+    : ground_(ground), boxes_(boxes), embree_(std::make_unique<Embree>()) {
+  // One thread: the tree, and with it the winner of a tie, is the same everywhere.
+  embree_->device = rtcNewDevice("threads=1,set_affinity=0");
+  if (!embree_->device) throw failure("Embree cannot start on this machine");
+  embree_->scene = rtcNewScene(embree_->device);
+  rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+  attach(embree_->device, embree_->scene, ground_mesh(ground, extent), kGroundId);
+  if (!boxes.empty()) attach(embree_->device, embree_->scene, box_mesh(boxes), kBoxesId);
+  rtcCommitScene(embree_->scene);
+  if (const RTCError error = rtcGetDeviceError(embree_->device); error != RTC_ERROR_NONE)
+    throw failure("Embree cannot build the scene (its error " + std::to_string(error) + ")");
+}
+
+Tracer::~Tracer() = default;
+
+void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
+  SKY_CHECK_LE(count, kBatch);
+  alignas(64) int valid[kBatch] = {};
+  RTCRayHit16 packet;
+  for (int i = 0; i < count; ++i) {
+    valid[i] = -1;
+    packet.ray.org_x[i] = static_cast<float>(rays[i].origin.x);
+    packet.ray.org_y[i] = static_cast<float>(rays[i].origin.y);
+    packet.ray.org_z[i] = static_cast<float>(rays[i].origin.z);
+    packet.ray.dir_x[i] = static_cast<float>(rays[i].direction.x);
+    packet.ray.dir_y[i] = static_cast<float>(rays[i].direction.y);
+    packet.ray.dir_z[i] = static_cast<float>(rays[i].direction.z);
+    packet.ray.tnear[i] = 0;
+    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    packet.ray.time[i] = 0;
+    packet.ray.mask[i] = ~0u;
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, embree_->scene, &context, &packet);
+
+  for (int i = 0; i < count; ++i) {
+    SurfacePoint& hit = hits[i];
+    hit = {};
+    const Ray& ray = rays[i];
+    if (packet.hit.geomID[i] == kGroundId) {
+      // One step of Newton's method from the mesh, which is only millimetres away.
+      const Vec3d near = ray.origin + static_cast<double>(packet.ray.tfar[i]) * ray.direction;
+      const Ground::Sample ground = ground_.at({near.x, near.y});
+      const Vec3d normal{-ground.slope.x, -ground.slope.y, 1};
+      hit.face = Face::ground;
+      hit.position = ray.origin + to_plane(ray, normal, {near.x, near.y, ground.z}) * ray.direction;
+      hit.normal = normalized(normal);
+    } else if (packet.hit.geomID[i] == kBoxesId) {
+      hit.box = static_cast<int>(packet.hit.primID[i]) / kFacesOfBox;
+      const int face = static_cast<int>(packet.hit.primID[i]) % kFacesOfBox;
+      const SolidBox& box = boxes_[static_cast<std::size_t>(hit.box)];
+      Vec3d on_face{box.center.x, box.center.y, box.z_high};
+      hit.face = face == 0 ? Face::top : Face::wall;
+      hit.normal = {0, 0, 1};
+      if (face > 0) {
+        const Wall side = wall(box, face);
+        const Vec2d p = box.center + side.reach * side.normal;
+        hit.normal = {side.normal.x, side.normal.y, 0};
+        on_face = {p.x, p.y, box.z_high};
+      }
+      hit.position = ray.origin + to_plane(ray, hit.normal, on_face) * ray.direction;
+      if (face == 0) hit.position.z = box.z_high;
+    }
+  }
+}
+
+void Tracer::blocked(const Ray* rays, const bool* active, int count, bool endless, bool* out) const {
+  SKY_CHECK_LE(count, kBatch);
+  alignas(64) int valid[kBatch] = {};
+  RTCRay16 packet;
+  bool any = false;
+  for (int i = 0; i < count; ++i) {
+    out[i] = false;
+    if (!active[i]) continue;
+    any = true;
+    valid[i] = -1;
+    packet.org_x[i] = static_cast<float>(rays[i].origin.x);
+    packet.org_y[i] = static_cast<float>(rays[i].origin.y);
+    packet.org_z[i] = static_cast<float>(rays[i].origin.z);
+    packet.dir_x[i] = static_cast<float>(rays[i].direction.x);
+    packet.dir_y[i] = static_cast<float>(rays[i].direction.y);
+    packet.dir_z[i] = static_cast<float>(rays[i].direction.z);
+    packet.tnear[i] = 0;
+    packet.tfar[i] = endless ? std::numeric_limits<float>::infinity() : 1.f;
+    packet.time[i] = 0;
+    packet.mask[i] = ~0u;
+    packet.flags[i] = 0;
+  }
+  if (!any) return;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid, embree_->scene, &context, &packet);
+  for (int i = 0; i < count; ++i) out[i] = active[i] && packet.tfar[i] < 0;
+}
+
+}  // namespace skysweep::scene

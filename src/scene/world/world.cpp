@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/world/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace skysweep::scene {
+namespace {
+
+// Sun and sky of a clear day; on level ground they add up to about one.
+constexpr LinearRgb kSun{0.80f, 0.77f, 0.71f};
+constexpr LinearRgb kSky{0.19f, 0.23f, 0.30f};
+constexpr LinearRgb kHaze{0.60f, 0.68f, 0.78f};  // where a ray meets nothing
+
+// A shadow or sight ray starts this far from its surface: more than the mesh of the ground deviates from the ground.
+constexpr double kLiftOff = 0.01;
+
+Vec3d direction_to_sun(const Light& light) {
+  const double azimuth = light.sun_azimuth_deg * std::numbers::pi / 180;
+  const double elevation = light.sun_elevation_deg * std::numbers::pi / 180;
+  return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
+}
+
+std::optional<StreetPlan> plan_streets(const Scene& scene) {
+  if (!scene.town) return std::nullopt;
+  return StreetPlan(*scene.town, 0.5 * scene.area_m);
+}
+
+// Beyond what is seen, as far as shadows and blocks reach into it.
+Box2d with_surroundings(const Scene& scene, const Box2d& visible) {
+  const double margin = scene.town ? scene.town->block_m + scene.town->street_m : 1.0;
+  return {{visible.min.x - margin, visible.min.y - margin}, {visible.max.x + margin, visible.max.y + margin}};
+}
+
+}  // namespace
+
+World::World(const Scene& scene, const Box2d& visible)
+    : ground_(scene.terrain, scene.seed),
+      streets_(plan_streets(scene)),
+      boxes_(build_boxes(scene, ground_, streets_, with_surroundings(scene, visible))),
+      tracer_(ground_, boxes_, with_surroundings(scene, visible)),
+      materials_(scene, streets_, boxes_),
+      towards_sun_(direction_to_sun(scene.light)),
+      shadows_(scene.light.shadows),
+      lowest_m_(-0.5 * scene.terrain.relief_m),
+      highest_m_(0.5 * scene.terrain.relief_m) {
+  for (const SolidBox& box : boxes_) highest_m_ = std::max(highest_m_, box.z_high);
+}
+
+void World::look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const {
+  tracer_.first_hits(rays, count, hits);
+  Ray to_sun[Tracer::kBatch];
+  bool faces_sun[Tracer::kBatch], in_shadow[Tracer::kBatch] = {};
+  for (int i = 0; i < count; ++i) {
+    faces_sun[i] = hits[i].face != Face::none && dot(hits[i].normal, towards_sun_) > 0;
+    to_sun[i] = {hits[i].position + kLiftOff * hits[i].normal, towards_sun_};
+  }
+  if (shadows_) tracer_.blocked(to_sun, faces_sun, count, true, in_shadow);
+  for (int i = 0; i < count; ++i) {
+    if (hits[i].face == Face::none) {
+      light[i] = kHaze;
+      continue;
+    }
+    const double sun =
+        faces_sun[i] && !in_shadow[i] ? dot(hits[i].normal, towards_sun_) / std::max(0.2, towards_sun_.z) : 0.0;
+    const double sky = 0.5 + 0.5 * hits[i].normal.z;
+    const LinearRgb received = static_cast<float>(sun) * kSun + static_cast<float>(sky) * kSky;
+    const LinearRgb own = materials_.reflectance(hits[i]);
+    light[i] = {own.r * received.r, own.g * received.g, own.b * received.b};
+  }
+}
+
+}  // namespace skysweep::scene

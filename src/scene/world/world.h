@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene, ready to be looked at: geometry, materials and light in one.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/box.h"
+#include "scene/scene.h"
+#include "scene/world/ground.h"
+#include "scene/world/materials.h"
+#include "scene/world/town.h"
+#include "scene/world/tracer.h"
+
+namespace skysweep::scene {
+
+// Immutable: safe to share between threads.
+class World {
+ public:
+  // Everything that can be seen on `visible`, a box on the ground.
+  World(const Scene& scene, const Box2d& visible);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const Tracer& tracer() const { return tracer_; }
+  // Heights between which all surfaces lie.
+  double lowest_m() const { return lowest_m_; }
+  double highest_m() const { return highest_m_; }
+
+  // Light that comes back along each of `count` <= Tracer::kBatch rays (1: white, lit like level ground in the sun),
+  // and what they hit first.
+  void look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const;
+
+ private:
+  Ground ground_;
+  std::optional<StreetPlan> streets_;
+  std::vector<SolidBox> boxes_;
+  Tracer tracer_;
+  Materials materials_;
+  Vec3d towards_sun_;
+  bool shadows_;
+  double lowest_m_, highest_m_;
+};
+
+}  // namespace skysweep::scene
