@@ -57,7 +57,7 @@ TomlTable read_preset(const std::string& name, const PresetSource& source) {
 }
 
 TomlTable read_settings(const std::string& preset, const std::optional<std::filesystem::path>& config) {
-  const TomlTable base = read_preset(preset);
+  TomlTable base = read_preset(preset);
   if (!config) return base;
   const TomlTable over = TomlTable::read_file(*config);
   if (over.has("extends"))
