@@ -49,8 +49,11 @@ void put_labels(GDALDataset& dataset, const Labels& labels) {
 }
 
 Labels labels_of(GDALDataset& dataset) {
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  // Under a compound CRS GDAL gives the unit of the heights to every band, even to colours and classes.
+  const bool measures = band.GetRasterDataType() != GDT_Byte;
   return {.content = item_of(dataset, kContent),
-          .units = dataset.GetRasterBand(1)->GetUnitType(),
+          .units = measures ? band.GetUnitType() : "",
           .vertical_reference = item_of(dataset, kVerticalReference),
           .software = item_of(dataset, kSoftware),
           .input_digest = item_of(dataset, kInputDigest)};
