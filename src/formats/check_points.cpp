@@ -63,17 +63,18 @@ std::vector<CheckPoint> read_table(const std::string& path) {
 }  // namespace
 
 std::vector<CheckPoint> read_check_points(const std::string& path, const CheckPointFilter& filter, Vec3d origin) {
-  if (!fs::exists(path)) throw bad_input(path + ": there is no such file or folder of check points.");
-  std::vector<CheckPoint> points;
-  if (const std::optional<PointsFile> file = colmap_points(path)) {
-    points = read_colmap(*file, filter);
-  } else {
-    if (filter.min_track_length || filter.max_reprojection_error_px)
-      throw usage_error(path +
-                        ": track length and reprojection error are known of a COLMAP model's points only; "
-                        "leave the filter out.");
-    points = read_table(path);
+  std::optional<PointsFile> model;
+  try {
+    if (!fs::exists(path)) throw bad_input(path + ": there is no such file or folder of check points.");
+    model = colmap_points(path);
+  } catch (const fs::filesystem_error& error) {
+    throw bad_input(path + ": cannot be opened (" + error.code().message() + ").");
   }
+  if (!model && (filter.min_track_length || filter.max_reprojection_error_px))
+    throw usage_error(path +
+                      ": track length and reprojection error are known of a COLMAP model's points only; leave the "
+                      "filter out.");
+  std::vector<CheckPoint> points = model ? read_colmap(*model, filter) : read_table(path);
   for (CheckPoint& point : points) point.position = point.position + origin;
   return points;
 }

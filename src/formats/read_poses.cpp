@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tells by looking which format a file or folder of poses has.
-#include <array>
 #include <filesystem>
 #include <optional>
 
@@ -40,7 +39,7 @@ std::vector<Source> sources_directly_in(const fs::path& folder) {
 // What a project folder of this program, COLMAP or ODM holds, the most direct first.
 std::vector<Source> sources_in(const fs::path& folder) {
   std::vector<Source> sources;
-  for (const fs::path& place : {folder, folder / "sparse" / "0", folder / "sparse", folder / "opensfm"}) {
+  for (const fs::path& place : {folder, folder / "0", folder / "sparse" / "0", folder / "sparse", folder / "opensfm"}) {
     const std::vector<Source> here = sources_directly_in(place);
     sources.insert(sources.end(), here.begin(), here.end());
   }
@@ -92,9 +91,13 @@ PoseSet read_folder(const fs::path& folder) {
 }  // namespace
 
 PoseSet read_poses(const std::string& path) {
-  if (!fs::exists(path)) throw bad_input(path + ": there is no such file or folder of poses; " + kAccepted);
-  if (fs::is_directory(path)) return read_folder(path);
-  if (const std::optional<Source> source = source_of_file(path)) return read(*source);
+  try {
+    if (!fs::exists(path)) throw bad_input(path + ": there is no such file or folder of poses; " + kAccepted);
+    if (fs::is_directory(path)) return read_folder(path);
+    if (const std::optional<Source> source = source_of_file(path)) return read(*source);
+  } catch (const fs::filesystem_error& error) {
+    throw bad_input(path + ": cannot be opened (" + error.code().message() + ").");
+  }
   throw bad_input(path + ": is no pose file; " + kAccepted);
 }
 
