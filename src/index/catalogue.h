@@ -29,13 +29,14 @@ struct TileRecord {
 // Error(bad_input) if it is damaged. Not safe for several threads at once.
 class Catalogue {
  public:
-  // Opens the file, or makes it when it is missing.
+  // Opens the file, or makes it when it is missing, with this CRS (a local frame is one too).
   Catalogue(const std::filesystem::path& path, const std::string& crs_wkt);
   ~Catalogue();
   Catalogue(Catalogue&&) noexcept;
   Catalogue& operator=(Catalogue&&) noexcept;
 
-  // Adds records, or replaces those of the same name.
+  // Adds records, or replaces those of the same name. All numbers come back bit for bit, except that the camera or pose
+  // of a refused photograph is dropped if a number in it is not finite.
   void put_images(const std::vector<ImageRecord>& images);
   void remove_images(const std::vector<std::string>& names);
   std::vector<ImageRecord> images() const;  // sorted by name

@@ -202,6 +202,25 @@ TEST(ViewSelection, keeps_to_the_number_of_views) {
   }
 }
 
+TEST(ViewSelectionOptions, each_changes_the_choice) {
+  // Many views straight above the tile's western part, few and steep ones of its eastern border.
+  std::vector<ViewCandidate> candidates;
+  for (int i = 0; i < 12; ++i) candidates.push_back(view("w" + std::to_string(10 + i), {-20.0 - i, 4.0 * i, 100}));
+  for (int i = 0; i < 3; ++i) candidates.push_back(view("e" + std::to_string(i), {115, 5 + 20.0 * i, 100}));
+  const auto chosen_with = [&](auto change) {
+    ViewSelectionOptions options;
+    options.views = 6;
+    change(options);
+    return names(candidates, select_views(candidates, kTile, 0, 0, options));
+  };
+  const auto usual = chosen_with([](auto&) {});
+  EXPECT_NE(chosen_with([](auto& o) { o.views = 5; }), usual);
+  EXPECT_NE(chosen_with([](auto& o) { o.max_off_nadir_deg = 25; }), usual);
+  EXPECT_NE(chosen_with([](auto& o) { o.min_baseline_ratio = 0.2; }), usual);
+  EXPECT_NE(chosen_with([](auto& o) { o.full_baseline_ratio = 0.051; }), usual);
+  EXPECT_NE(chosen_with([](auto& o) { o.min_views = 1; }), usual);
+}
+
 TEST(ViewSelectionOptions, says_what_to_change) {
   EXPECT_FALSE(ViewSelectionOptions{}.problem());
   const auto problem_with = [](auto change) {
