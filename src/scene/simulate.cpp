@@ -29,18 +29,30 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kExposureStream = 0xe0;
 
-void require_usable(const Scene& scene, const std::vector<camera::Pose>& poses, const Box2d& visible) {
+void require_usable(const Scene& scene) {
   if (const auto problem = scene.camera.problem())
     throw usage_error("the camera of the scene cannot be used: " + *problem);
-  constexpr double kMostVisible_m = 1e5, kMostCells = 4e8;
-  if (std::max(visible.width(), visible.height()) > kMostVisible_m)
-    throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
+  constexpr double kMostCells = 4e8;
   const double cell = scene.truth_cell_m();
   if (scene.area_m.x / cell * (scene.area_m.y / cell) > kMostCells)
     throw usage_error("the truth of the scene would have more than 400 million cells: set a larger truth.cell_m");
+}
+
+void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses, const Box2d& visible) {
   if (poses.size() > 9999)
     throw usage_error("the flight of the scene takes " + std::to_string(poses.size()) +
                       " photographs, more than the 9999 that can be numbered: ask for less overlap or area");
+  constexpr double kMostVisible_m = 1e5;
+  if (std::max(visible.width(), visible.height()) > kMostVisible_m)
+    throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
+  double highest = 0.5 * scene.terrain.relief_m;
+  if (scene.town) highest += scene.town->max_height_m;
+  for (const Building& building : scene.buildings) highest = std::max(highest, building.roof_z_m);
+  for (const camera::Pose& pose : poses)
+    if (pose.center.z <= highest)
+      throw usage_error("the flight is at " + std::to_string(std::lround(pose.center.z)) +
+                        " m, but the scene reaches up to " + std::to_string(std::lround(highest)) +
+                        " m: raise flight.gsd_m or camera.focal_px");
 }
 
 std::vector<formats::PosedImage> name_photographs(const Scene& scene, const std::vector<camera::Pose>& poses) {
@@ -75,9 +87,8 @@ Exposure exposure_of(const Scene& scene, std::size_t index) {
   return out;
 }
 
-void write_truth(const Scene& scene, const TruthGrid& grid, const TruthLayers& truth, const std::string& software,
-                 const fs::path& folder) {
-  const std::string crs = scene.crs.empty() ? raster::local_metric_crs() : raster::crs_from_user_input(scene.crs);
+void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& grid, const TruthLayers& truth,
+                 const std::string& software, const fs::path& folder) {
   const raster::GeoReference where{crs, grid.north_west_corner, grid.cell_m};
   const std::string digest = raster::digest_of_bytes(scene_to_json(scene));
   write_geotiff(folder / "dsm.tif",
@@ -91,9 +102,11 @@ void write_truth(const Scene& scene, const TruthGrid& grid, const TruthLayers& t
 }  // namespace
 
 Simulation simulate(const Scene& scene, const fs::path& folder, Executor& executor, const SimulationOptions& options) {
+  require_usable(scene);
+  const std::string crs = scene.crs.empty() ? raster::local_metric_crs() : raster::crs_from_user_input(scene.crs);
   const std::vector<camera::Pose> poses = plan_flight(scene);
   const Box2d visible = visible_ground(scene, poses);
-  require_usable(scene, poses, visible);
+  require_flyable(scene, poses, visible);
   const std::vector<formats::PosedImage> photographs = name_photographs(scene, poses);
   raster::require_writable_folder(folder);
   require_no_others(folder / "images", photographs);
@@ -115,7 +128,7 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
     report(static_cast<int>(cameras.size()));
   }
   const TruthGrid grid = truth_grid(scene);
-  write_truth(scene, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
+  write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
               folder / "truth");
   report(total);
   return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};

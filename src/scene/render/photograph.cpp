@@ -39,14 +39,14 @@ Array2d<Rgb8> take_photograph(const World& world, const camera::CameraModel& mod
     std::array<LinearRgb, Tracer::kBatch> light;
     for (int first = 0; first < model.width_px; first += kPixelsPerBatch) {
       const int pixels = std::min(kPixelsPerBatch, model.width_px - first);
-      for (int i = 0; i < pixels * kSamplesPerPixel; ++i) {
-        const int column = first + i / kSamplesPerPixel;
+      for (int p = 0; p < pixels; ++p) {
         // A pixel that the lens model cannot reach looks straight ahead here and stays black below.
-        const Vec3d in_camera =
-            rays.valid(column, row)
-                ? rays.direction(column, row, kSamples[static_cast<std::size_t>(i % kSamplesPerPixel)])
-                : Vec3d{0, 0, 1};
-        batch[static_cast<std::size_t>(i)] = {pose.center, world_from_cam * in_camera};
+        const bool valid = rays.valid(first + p, row);
+        for (int s = 0; s < kSamplesPerPixel; ++s) {
+          const Vec2d within = kSamples[static_cast<std::size_t>(s)];
+          const Vec3d in_camera = valid ? rays.direction(first + p, row, within) : Vec3d{0, 0, 1};
+          batch[static_cast<std::size_t>(p * kSamplesPerPixel + s)] = {pose.center, world_from_cam * in_camera};
+        }
       }
       world.look(batch.data(), pixels * kSamplesPerPixel, hits.data(), light.data());
       for (int p = 0; p < pixels; ++p) {

@@ -16,7 +16,7 @@ class PixelRays {
 
   // Camera-frame direction (z = 1) of a position within pixel (column, row); `within` from (0, 0), its top-left
   // corner, to (1, 1). With distortion the inverse of the lens model is interpolated between the pixel's corners: good
-  // to 1e-4 pixels for any lens that has an inverse there.
+  // to 5e-4 pixels even for a strong wide-angle lens.
   Vec3d direction(int column, int row, Vec2d within) const;
 
   // Whether the lens model has an inverse at all four corners of the pixel.

@@ -13,11 +13,11 @@ namespace {
 
 // Detail of a material: strength of value noise at 1, 2, 4, 16 and 64 times the finest size, relative to the colour.
 using Spectrum = std::array<float, 5>;
-constexpr Spectrum kAsphalt = {0.30f, 0.26f, 0.22f, 0.12f, 0.12f};
-constexpr Spectrum kPaving = {0.26f, 0.22f, 0.16f, 0.10f, 0.10f};
+constexpr Spectrum kAsphalt = {0.36f, 0.34f, 0.28f, 0.14f, 0.12f};
+constexpr Spectrum kPaving = {0.28f, 0.26f, 0.20f, 0.10f, 0.10f};
 constexpr Spectrum kLawn = {0.34f, 0.36f, 0.34f, 0.22f, 0.20f};
 constexpr Spectrum kGravel = {0.36f, 0.36f, 0.26f, 0.10f, 0.10f};
-constexpr Spectrum kTiles = {0.22f, 0.22f, 0.18f, 0.10f, 0.12f};
+constexpr Spectrum kTiles = {0.26f, 0.26f, 0.22f, 0.10f, 0.12f};
 constexpr Spectrum kPlaster = {0.14f, 0.14f, 0.14f, 0.10f, 0.12f};
 constexpr Spectrum kPaint = {0.04f, 0.04f, 0.05f, 0.04f, 0.0f};
 
@@ -85,16 +85,20 @@ LinearRgb Materials::ground(Vec2d p) const {
   const auto shade = [&](LinearRgb color, const Spectrum& spectrum) {
     return std::max(0.1f, 1 + contrast_ * mottle(spectrum, per_finest_ * p, seed_)) * color;
   };
+  // Coarse noise in [-1, 1] with finer noise of +-0.5 on it, or -1 where it cannot reach `least` (most places).
+  const auto patches = [&](double size_m, std::uint32_t seed, float least) {
+    const float coarse = value_noise(p.x / size_m, p.y / size_m, seed);
+    if (coarse < least - 0.5f) return -1.f;
+    return coarse + 0.5f * value_noise(4.3 * p.x / size_m, 4.3 * p.y / size_m, seed + 1);
+  };
   const auto greens = [&](float dryness) {
-    const float patches =
-        value_noise(p.x / 7, p.y / 7, seed_ + 11) + 0.5f * value_noise(p.x / 1.9, p.y / 1.9, seed_ + 12);
-    LinearRgb grass = blend(kGrassColor, kDryGrassColor, ramp(patches + dryness, -0.7f, 0.9f));
-    const float soil =
-        value_noise(p.x / 4.3, p.y / 4.3, seed_ + 13) + 0.4f * value_noise(p.x / 0.6, p.y / 0.6, seed_ + 14);
-    grass = blend(grass, kSoilColor, contrast_ > 0 ? ramp(soil, 0.62f, 0.8f) : 0);
-    const float shrubs =
-        value_noise(p.x / 3.1, p.y / 3.1, seed_ + 15) + 0.5f * value_noise(p.x / 0.8, p.y / 0.8, seed_ + 16);
-    return shade(blend(grass, kShrubColor, contrast_ > 0 ? ramp(shrubs, 0.66f, 0.78f) : 0), kLawn);
+    const float dry = ramp(patches(7, seed_ + 11, -1) + dryness, -0.7f, 0.9f);
+    LinearRgb color = blend(kGrassColor, kDryGrassColor, dry);
+    if (contrast_ > 0) {
+      color = blend(color, kSoilColor, ramp(patches(4.3, seed_ + 13, 0.65f), 0.65f, 0.8f));
+      color = blend(color, kShrubColor, ramp(patches(3.1, seed_ + 15, 0.66f), 0.66f, 0.78f));
+    }
+    return shade(color, kLawn);
   };
   if (!streets_) return greens(0);
 
@@ -106,7 +110,7 @@ LinearRgb Materials::ground(Vec2d p) const {
     const bool crossing = std::min(place.outside.x, place.outside.y) > 0;
     const double to_middle = 0.5 * streets_->street_m() - into_street;
     const double along = place.outside.x > 0 ? q.y : q.x;
-    const bool dash = !crossing && to_middle < 0.07 && std::fmod(along + 1e6, 6.0) < 3.0;
+    const bool dash = !crossing && to_middle < 0.07 && along / 6 - floor_int(along / 6) < 0.5;
     const float worn = 0.12f * value_noise(q.x / 2.7, q.y / 2.7, seed_ + 21);
     return shade((1 + contrast_ * worn) * (dash ? kMarkingColor : kAsphaltColor), kAsphalt);
   }
@@ -135,7 +139,7 @@ LinearRgb Materials::top(const SolidBox& box, Vec2d local) const {
   }
   if (box.kind == BoxKind::roof_unit || box.seed % 3 == 0) {  // gravel or bitumen between seams of the sheets
     const double sheet = local.y / 1.1;
-    const bool seam = sheet - std::floor(sheet) < 0.06;
+    const bool seam = sheet - floor_int(sheet) < 0.06;
     const float stain = 0.22f * value_noise(local.x / 2.3, local.y / 2.3, box.seed + 51);
     return shade((1 + contrast_ * (stain - (seam ? 0.3f : 0.f))) * pick(kFlatRoofColors, box.seed), kGravel);
   }
@@ -165,7 +169,7 @@ LinearRgb Materials::wall(const SolidBox& box, const SurfacePoint& point) const 
   if (box.kind == BoxKind::car) return shade(pick(kCarColors, box.seed), kPaint);
   if (box.kind == BoxKind::roof_unit) return shade(pick(kWallColors, box.seed), kPlaster);
   const double bay = along / 2.8, storey = (below_roof - 0.4) / 3.0;
-  const double in_bay = bay - std::floor(bay), in_storey = storey - std::floor(storey);
+  const double in_bay = bay - floor_int(bay), in_storey = storey - floor_int(storey);
   const bool window = storey > 0 && in_bay > 0.3 && in_bay < 0.72 && in_storey > 0.2 && in_storey < 0.68;
   if (!window) return shade(pick(kWallColors, box.seed), kPlaster);
   const float curtain = unit(lattice_hash(floor_int(bay), floor_int(storey), seed + 5));

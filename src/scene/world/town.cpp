@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "scene/world/noise.h"
 
 namespace skysweep::scene {
 namespace {
@@ -124,15 +125,16 @@ class BlockBuilder {
 StreetPlan::StreetPlan(const Town& town, Vec2d middle)
     : block_m_(town.block_m),
       street_m_(town.street_m),
+      per_pitch_(1 / pitch_m()),
       middle_(middle),
       axis_u_(heading_axis(town.heading_deg)),
       axis_v_{-axis_u_.y, axis_u_.x} {}
 
 StreetPlan::Place StreetPlan::place(Vec2d q) const {
-  const double x = std::round(q.x / pitch_m()), y = std::round(q.y / pitch_m());
-  const Vec2d in_block = q - pitch_m() * Vec2d{x, y};
-  return {static_cast<int>(x),
-          static_cast<int>(y),
+  const int x = floor_int(q.x * per_pitch_ + 0.5), y = floor_int(q.y * per_pitch_ + 0.5);
+  const Vec2d in_block = q - pitch_m() * Vec2d{static_cast<double>(x), static_cast<double>(y)};
+  return {x,
+          y,
           in_block,
           {std::max(0.0, std::abs(in_block.x) - 0.5 * block_m_), std::max(0.0, std::abs(in_block.y) - 0.5 * block_m_)}};
 }

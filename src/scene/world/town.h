@@ -49,7 +49,7 @@ class StreetPlan {
   double street_m() const { return street_m_; }
 
  private:
-  double block_m_, street_m_;
+  double block_m_, street_m_, per_pitch_;
   Vec2d middle_, axis_u_, axis_v_;
 };
 

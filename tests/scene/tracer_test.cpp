@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/world/tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random.h"
+
+namespace skysweep::scene {
+namespace {
+
+constexpr Box2d kExtent{{-100, -100}, {200, 200}};
+
+SolidBox turned_box() {
+  SolidBox box;
+  box.center = {40, 30};
+  box.axis_u = {std::cos(0.3), std::sin(0.3)};
+  box.half = {8, 5};
+  box.z_low = -1;
+  box.z_high = 12.34;
+  return box;
+}
+
+SurfacePoint trace(const Tracer& tracer, Ray ray) {
+  SurfacePoint hit;
+  tracer.first_hits(&ray, 1, &hit);
+  return hit;
+}
+
+TEST(Ground, stays_within_its_relief_and_its_slope_is_its_derivative) {
+  const Ground ground({6, 50}, 4);
+  Random random(1);
+  double lowest = 0, highest = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec2d p{random.uniform(-500, 500), random.uniform(-500, 500)};
+    const Ground::Sample here = ground.at(p);
+    lowest = std::min(lowest, here.z);
+    highest = std::max(highest, here.z);
+    constexpr double kStep = 1e-4;
+    EXPECT_NEAR(here.slope.x, (ground.at({p.x + kStep, p.y}).z - ground.at({p.x - kStep, p.y}).z) / (2 * kStep), 1e-7);
+    EXPECT_NEAR(here.slope.y, (ground.at({p.x, p.y + kStep}).z - ground.at({p.x, p.y - kStep}).z) / (2 * kStep), 1e-7);
+  }
+  EXPECT_GE(lowest, -3);
+  EXPECT_LE(highest, 3);
+  EXPECT_GT(highest - lowest, 4);  // and makes use of it
+}
+
+TEST(Tracer, level_ground_is_exactly_at_zero) {
+  const Ground ground({}, 1);
+  const Tracer tracer(ground, {}, kExtent);
+  const SurfacePoint hit = trace(tracer, {{12.3, 45.6, 100}, {0.1, -0.2, -1}});
+  EXPECT_EQ(hit.face, Face::ground);
+  EXPECT_NEAR(hit.position.z, 0, 1e-12);
+  EXPECT_NEAR(hit.position.x, 22.3, 1e-12);
+  EXPECT_EQ(hit.normal, (Vec3d{0, 0, 1}));
+}
+
+TEST(Tracer, rolling_ground_is_met_where_its_closed_form_is) {
+  const Ground ground({5, 40}, 9);
+  const Tracer tracer(ground, {}, kExtent);
+  Random random(2);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d direction{random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), -1};
+    const SurfacePoint hit = trace(tracer, {{random.uniform(0, 100), random.uniform(0, 100), 100}, direction});
+    ASSERT_EQ(hit.face, Face::ground);
+    EXPECT_NEAR(hit.position.z, ground.at({hit.position.x, hit.position.y}).z, 1e-5);
+  }
+}
+
+TEST(Tracer, a_roof_is_exactly_at_its_height_and_walls_are_exactly_in_their_plane) {
+  const Ground ground({3, 40}, 9);
+  const std::vector<SolidBox> boxes = {turned_box()};
+  const Tracer tracer(ground, boxes, kExtent);
+  const SurfacePoint roof = trace(tracer, {{41, 31, 90}, {0, 0, -1}});
+  EXPECT_EQ(roof.face, Face::top);
+  EXPECT_EQ(roof.position.z, 12.34);
+  // From each side, level with the middle of the wall.
+  const Vec2d sides[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  for (const Vec2d side : sides) {
+    const Vec2d outwards = side.x * boxes[0].axis_u + side.y * boxes[0].axis_v();
+    const Vec2d start = boxes[0].center + 50.0 * outwards;
+    const SurfacePoint hit = trace(tracer, {{start.x, start.y, 6}, {-outwards.x, -outwards.y, 0}});
+    ASSERT_EQ(hit.face, Face::wall);
+    EXPECT_NEAR(dot(Vec2d{hit.normal.x, hit.normal.y}, outwards), 1, 1e-12);
+    const double reach = side.x != 0 ? 8 : 5;
+    EXPECT_NEAR(dot(Vec2d{hit.position.x, hit.position.y} - boxes[0].center, outwards), reach, 1e-12);
+  }
+}
+
+TEST(Tracer, beyond_the_ground_there_is_nothing) {
+  const Ground ground({}, 1);
+  const Tracer tracer(ground, {}, kExtent);
+  EXPECT_EQ(trace(tracer, {{0, 0, 100}, {1, 0, 0.1}}).face, Face::none);
+  EXPECT_EQ(trace(tracer, {{500, 0, 100}, {0, 0, -1}}).face, Face::none);
+}
+
+TEST(Tracer, a_building_blocks_the_way_only_as_far_as_the_ray_goes) {
+  const Ground ground({}, 1);
+  const std::vector<SolidBox> boxes = {turned_box()};
+  const Tracer tracer(ground, boxes, kExtent);
+  const Ray rays[] = {{{40, 80, 5}, {0, -30, 0}},    // ends before the wall
+                      {{40, 80, 5}, {0, -100, 0}},   // ends behind it
+                      {{40, 80, 20}, {0, -100, 0}},  // passes above
+                      {{40, 80, 5}, {0, -100, 0}}};
+  const bool active[] = {true, true, true, false};
+  bool blocked[4];
+  tracer.blocked(rays, active, 4, false, blocked);
+  EXPECT_FALSE(blocked[0]);
+  EXPECT_TRUE(blocked[1]);
+  EXPECT_FALSE(blocked[2]);
+  EXPECT_FALSE(blocked[3]);  // not asked
+  tracer.blocked(rays, active, 1, true, blocked);
+  EXPECT_TRUE(blocked[0]);  // without end it does meet the wall
+}
+
+}  // namespace
+}  // namespace skysweep::scene
