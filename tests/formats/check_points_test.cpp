@@ -86,7 +86,8 @@ TEST_F(CheckPoints, a_broken_model_is_refused_with_its_place) {
   Bytes file;
   add_point(file.add(std::uint64_t{1}), 5, {NAN, 2, 3}, 0.25, 0);
   EXPECT_SENTENCE(refusal("points3D.bin", file.text()), "point 1: its position or error is not a finite number");
-  EXPECT_SENTENCE(sentence_of([&] { read_check_points(folder_.string() + "/.."); }), "no points3D.txt or points3D.bin");
+  std::filesystem::create_directories(path("empty"));
+  EXPECT_SENTENCE(sentence_of([&] { read_check_points(path("empty")); }), "no points3D.txt or points3D.bin");
 }
 
 }  // namespace
