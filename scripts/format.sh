@@ -6,12 +6,19 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-mode=(-i)
-if [[ ${1:-} == --check ]]; then mode=(--dry-run -Werror); fi
+check=false
+if [[ ${1:-} == --check ]]; then check=true; fi
 formatter=$(command -v clang-format-14 || command -v clang-format || true)
 if [[ -z $formatter ]] || ! "$formatter" --version | grep -q 'version 14\.'; then
   echo "format: clang-format 14 is not installed (apt-get install clang-format)"
-  [[ ${1:-} == --check ]]
-  exit
+  $check && exit 0
+  exit 1
 fi
-find src tests bench \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 "$formatter" "${mode[@]}"
+
+sources() { find src tests bench \( -name '*.h' -o -name '*.cpp' \) -print0; }
+if ! $check; then
+  sources | xargs -0 "$formatter" -i
+elif ! sources | xargs -0 "$formatter" --dry-run -Werror; then
+  echo "format: scripts/format.sh mends this"
+  exit 1
+fi
