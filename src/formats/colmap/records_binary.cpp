@@ -18,7 +18,9 @@ constexpr std::uint64_t kObservationBytes = 8 + 8 + 8;
 constexpr std::uint64_t kTrackElementBytes = 4 + 4;
 
 // "image 3" of the file, counted from one.
-std::string ordinal(const char* what, std::uint64_t index) { return std::string(what) + ' ' + std::to_string(index + 1); }
+std::string ordinal(const char* what, std::uint64_t index) {
+  return std::string(what) + ' ' + std::to_string(index + 1);
+}
 
 Vec3d read_vector(BinaryReader& file) {
   const double x = file.read<double>(), y = file.read<double>(), z = file.read<double>();
