@@ -11,18 +11,18 @@
 namespace skysweep::scene {
 namespace {
 
-// Detail of a material: strength of value noise at 1, 2, 4, 16 and 64 times the finest size, relative to the colour.
-using Spectrum = std::array<float, 5>;
-constexpr Spectrum kAsphalt = {0.36f, 0.34f, 0.28f, 0.14f, 0.12f};
-constexpr Spectrum kPaving = {0.28f, 0.26f, 0.20f, 0.10f, 0.10f};
-constexpr Spectrum kLawn = {0.34f, 0.36f, 0.34f, 0.22f, 0.20f};
-constexpr Spectrum kGravel = {0.36f, 0.36f, 0.26f, 0.10f, 0.10f};
-constexpr Spectrum kTiles = {0.26f, 0.26f, 0.22f, 0.10f, 0.12f};
-constexpr Spectrum kPlaster = {0.14f, 0.14f, 0.14f, 0.10f, 0.12f};
-constexpr Spectrum kPaint = {0.04f, 0.04f, 0.05f, 0.04f, 0.0f};
+// Detail of a material: strength of value noise at 1, 2, 4 and 16 times the finest size, relative to the colour.
+using Spectrum = std::array<float, 4>;
+constexpr Spectrum kAsphalt = {0.36f, 0.34f, 0.28f, 0.14f};
+constexpr Spectrum kPaving = {0.28f, 0.26f, 0.20f, 0.10f};
+constexpr Spectrum kLawn = {0.34f, 0.36f, 0.34f, 0.22f};
+constexpr Spectrum kGravel = {0.36f, 0.36f, 0.26f, 0.10f};
+constexpr Spectrum kTiles = {0.26f, 0.26f, 0.22f, 0.10f};
+constexpr Spectrum kPlaster = {0.14f, 0.14f, 0.14f, 0.10f};
+constexpr Spectrum kPaint = {0.04f, 0.04f, 0.05f, 0.04f};
 
 float mottle(const Spectrum& spectrum, Vec2d in_finest, std::uint32_t seed) {
-  constexpr std::array<double, 5> kScale = {1, 1. / 2, 1. / 4, 1. / 16, 1. / 64};
+  constexpr std::array<double, 4> kScale = {1, 1. / 2, 1. / 4, 1. / 16};
   float sum = 0;
   for (std::size_t i = 0; i < spectrum.size(); ++i)
     sum += spectrum[i] * value_noise(kScale[i] * in_finest.x, kScale[i] * in_finest.y,
