@@ -9,13 +9,13 @@
 namespace skysweep::sweep {
 namespace {
 
-constexpr int kLongSidePx = 96;       // of the low-resolution photograph
-constexpr int kRadius = 2;            // of the correlation window
+constexpr int kLongSidePx = 96;  // of the low-resolution photograph
+constexpr int kRadius = 2;       // of the correlation window
 constexpr int kMaxPlanes = 512;
-constexpr double kStepPx = 0.5;       // parallax from one plane to the next, low-resolution pixels
+constexpr double kStepPx = 0.5;  // parallax from one plane to the next, low-resolution pixels
 constexpr double kNearestBaselines = 0.5, kFarthestBaselines = 60;  // depths searched, in baselines
 constexpr double kGoodCorrelation = 0.6;
-constexpr double kDistinct = 0.1;     // the best plane must beat all that are not next to it by this much
+constexpr double kDistinct = 0.1;  // the best plane must beat all that are not next to it by this much
 constexpr int kFewestPixels = 30;
 
 struct LowResolution {
@@ -45,10 +45,10 @@ std::vector<double> depths_to_search(const View& reference, const std::vector<Vi
   if (longest == 0) return {};
   const double nearest = kNearestBaselines * shortest, farthest = kFarthestBaselines * longest;
   const double focal = std::ldexp(reference.camera.model().focal_px(), -level);
-  const int count = std::min(kMaxPlanes, static_cast<int>(focal * longest * (1 / nearest - 1 / farthest) / kStepPx) + 2);
+  const int count =
+      std::min(kMaxPlanes, static_cast<int>(focal * longest * (1 / nearest - 1 / farthest) / kStepPx) + 2);
   std::vector<double> depths(count);
-  for (int i = 0; i < count; ++i)
-    depths[i] = 1 / (1 / farthest + (1 / nearest - 1 / farthest) * i / (count - 1));
+  for (int i = 0; i < count; ++i) depths[i] = 1 / (1 / farthest + (1 / nearest - 1 / farthest) * i / (count - 1));
   return depths;
 }
 

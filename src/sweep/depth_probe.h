@@ -12,15 +12,15 @@
 namespace skysweep::sweep {
 
 struct DepthProbe {
-  double median_m = 0;   // vertical distance from the CoP to the surface
-  double nearest_m = 0;  // 2nd percentile of the trusted pixels
-  double farthest_m = 0; // 98th percentile
-  int pixels = 0;        // trusted pixels of the low-resolution photograph
+  double median_m = 0;    // vertical distance from the CoP to the surface
+  double nearest_m = 0;   // 2nd percentile of the trusted pixels
+  double farthest_m = 0;  // 98th percentile
+  int pixels = 0;         // trusted pixels of the low-resolution photograph
 };
 
 // `reference` looks down (near-vertical); `neighbours` overlap with it, presumably. Cameras in a common local frame.
-// Matches by zero-mean normalised cross-correlation of 5 x 5 low-resolution pixels (METHODS section 4), so that exposure
-// differences do not matter. Nothing when too few pixels find a clear match.
+// Matches by zero-mean normalised cross-correlation of 5 x 5 low-resolution pixels (METHODS section 4), so that
+// exposure differences do not matter. Nothing when too few pixels find a clear match.
 std::optional<DepthProbe> probe_depth(const View& reference, const std::vector<View>& neighbours);
 
 }  // namespace skysweep::sweep

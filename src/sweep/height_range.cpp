@@ -82,9 +82,9 @@ std::optional<HeightRange> find_planes(SweepProblem& problem, double z_low, doub
     for (int bx = 0; bx < problem.block_planes.width(); ++bx) {
       const int x = bx * kCoarsePerBlock, y = by * kCoarsePerBlock;
       constexpr int reach = kNeighborhoodCoarseCells;
-      const HeightRange range = range_within(surface, x - reach, y - reach, x + kCoarsePerBlock + reach,
-                                             y + kCoarsePerBlock + reach)
-                                    .value_or(*whole);
+      const HeightRange range =
+          range_within(surface, x - reach, y - reach, x + kCoarsePerBlock + reach, y + kCoarsePerBlock + reach)
+              .value_or(*whole);
       problem.block_planes(bx, by) = planes_between(range.z_low - margin_m, range.z_high + margin_m, problem.dz_m, 1);
     }
   }

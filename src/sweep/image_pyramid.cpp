@@ -71,7 +71,8 @@ ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph) {
   color_.push_back(std::move(photograph));
   luminance_.push_back(with_border(grey));
   while (grey.width() > 1 || grey.height() > 1) {
-    grey = halve(grey, [](auto a, auto b, auto c, auto d) { return static_cast<std::uint16_t>(rounded_mean(a, b, c, d)); });
+    grey = halve(grey,
+                 [](auto a, auto b, auto c, auto d) { return static_cast<std::uint16_t>(rounded_mean(a, b, c, d)); });
     luminance_.push_back(with_border(grey));
     color_.push_back(halve(color_.back(), [](Rgb8 a, Rgb8 b, Rgb8 c, Rgb8 d) {
       return Rgb8{static_cast<std::uint8_t>(rounded_mean(a.r, b.r, c.r, d.r)),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photograph as the sweep reads it: luminance and colour, each with its mipmap levels. Level l halves level l-1 by the
-// mean of 2 x 2 pixels, so one of its pixels stands for a window of 2^l x 2^l. Pixel coordinates at level l are those of
-// level 0 divided by 2^l (the centre of the top-left pixel is (0.5, 0.5) at every level). Immutable once built.
+// A photograph as the sweep reads it: luminance and colour, each with its mipmap levels. Level l halves level l-1 by
+// the mean of 2 x 2 pixels, so one of its pixels stands for a window of 2^l x 2^l. Pixel coordinates at level l are
+// those of level 0 divided by 2^l (the centre of the top-left pixel is (0.5, 0.5) at every level). Immutable once
+// built.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +14,10 @@
 
 namespace skysweep::sweep {
 
-// Luminance in units of 1/256 grey level (Y = 0.212671 R + 0.715160 G + 0.072169 B, METHODS section 4), with a border of
-// one repeated pixel on every side, so that bilinear sampling anywhere on the photograph reads inside the array.
+// Luminance in units of 1/256 grey level (Y = 0.212671 R + 0.715160 G + 0.072169 B, METHODS section 4), with a border
+// of one repeated pixel on every side, so that bilinear sampling anywhere on the photograph reads inside the array.
 struct LuminanceLevel {
-  int width = 0;   // without the border
+  int width = 0;  // without the border
   int height = 0;
   int stride = 0;  // elements from one row to the next
   std::vector<std::uint16_t> values;

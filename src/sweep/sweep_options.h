@@ -7,6 +7,9 @@
 
 namespace skysweep::sweep {
 
+// More views than this cannot serve one tile: their costs are kept side by side on the stack.
+inline constexpr int kMaxViews = 32;
+
 enum class Aggregation {
   all_views,    // mean over all views that show the sample
   better_half,  // mean over the floor(n/2) views that agree best with the others: forgives occlusion

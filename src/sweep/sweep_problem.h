@@ -13,7 +13,8 @@
 
 namespace skysweep::sweep {
 
-// Cells in the tile's own frame (a local origin near the cells, so that coordinates are small); row 0 is the northernmost.
+// Cells in the tile's own frame (a local origin near the cells, so that coordinates are small); row 0 is the
+// northernmost.
 struct Grid {
   int width = 0;
   int height = 0;
@@ -42,14 +43,12 @@ PlaneRange planes_between(double z_low, double z_high, double dz_m, int margin);
 struct View {
   const ImagePyramid* image = nullptr;
   camera::Camera camera;  // in the tile's frame
-  int base_level = 0;     // mipmap level whose pixels are about as large as a cell: 0 when a cell is no larger than a pixel
+  int base_level =
+      0;  // mipmap level whose pixels are about as large as a cell: 0 when a cell is no larger than a pixel
 };
 
 // Planes are searched block by block: each block of kBlockCells x kBlockCells cells has a range of its own.
 constexpr int kBlockCells = 64;
-
-// More views than this cannot serve one tile: their costs are kept side by side in registers and stack.
-constexpr int kMaxViews = 32;
 
 struct SweepProblem {
   Grid grid;

@@ -45,7 +45,8 @@ bool SurfaceVisibility::sees(Vec3d eye, int column, int row, double z) const {
     if (!height_m_.contains(x, y)) return true;
     const double limit = z + i * step_z + tolerance_m_;
     if (block_max_(x / kBlock, y / kBlock) <= limit) {
-      // The ray only rises: nothing in this block can hide the cell. Go to the step that leaves it along the longer axis.
+      // The ray only rises: nothing in this block can hide the cell. Go to the step that leaves it along the longer
+      // axis.
       const bool along_x = std::abs(dx) >= std::abs(dy);
       const int position = (along_x ? x : y) % kBlock;
       const bool forwards = (along_x ? step_x : step_y) > 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cells of a surface a camera sees past the rest of the surface. Knows the grid only: what stands outside it hides
-// nothing, which is why tiles are swept with a collar.
+// Which cells of a surface a camera sees past the rest of the surface. Knows the grid only: what stands outside it
+// hides nothing, which is why tiles are swept with a collar.
 #pragma once
 
 #include "core/array2d.h"
@@ -11,8 +11,8 @@ namespace skysweep::sweep {
 
 class SurfaceVisibility {
  public:
-  // `height_m`: NaN cells hide nothing. The surface must outlive this object. `tolerance_m`: the surface must rise above
-  // the ray by more than this to hide a cell, so that noise does not.
+  // `height_m`: NaN cells hide nothing. The surface must outlive this object. `tolerance_m`: the surface must rise
+  // above the ray by more than this to hide a cell, so that noise does not.
   SurfaceVisibility(const Grid& grid, const Array2d<float>& height_m, double tolerance_m);
 
   // Whether the straight line from the cell's centre at height z up to `eye` stays above the surface.

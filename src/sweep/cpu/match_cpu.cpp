@@ -41,7 +41,8 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
   const auto nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
   const camera::Distortion& lens = view.distortion;
   for (int k = 0; k < kKnots; k += static_cast<int>(hn::Lanes(d))) {
-    const auto dx = hn::MulAdd(hn::Iota(d, static_cast<double>(k)), coefficient(kSegmentCells * cell_m), coefficient(dx0));
+    const auto dx =
+        hn::MulAdd(hn::Iota(d, static_cast<double>(k)), coefficient(kSegmentCells * cell_m), coefficient(dx0));
     const auto row = [&](int i) {
       return hn::MulAdd(coefficient(r(i, 0)), dx, coefficient(r(i, 1) * dy + r(i, 2) * dz));
     };
@@ -52,10 +53,10 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
     const auto radial = hn::MulAdd(
         r2, hn::MulAdd(r2, hn::MulAdd(r2, coefficient(lens.k3), coefficient(lens.k2)), coefficient(lens.k1)), one);
     const auto xy2 = hn::Mul(two, hn::Mul(x, y));
-    const auto tangential_x = hn::MulAdd(coefficient(lens.p1), xy2,
-                                         hn::Mul(coefficient(lens.p2), hn::MulAdd(two, hn::Mul(x, x), r2)));
-    const auto tangential_y = hn::MulAdd(coefficient(lens.p2), xy2,
-                                         hn::Mul(coefficient(lens.p1), hn::MulAdd(two, hn::Mul(y, y), r2)));
+    const auto tangential_x =
+        hn::MulAdd(coefficient(lens.p1), xy2, hn::Mul(coefficient(lens.p2), hn::MulAdd(two, hn::Mul(x, x), r2)));
+    const auto tangential_y =
+        hn::MulAdd(coefficient(lens.p2), xy2, hn::Mul(coefficient(lens.p1), hn::MulAdd(two, hn::Mul(y, y), r2)));
     const auto distorted_x = hn::MulAdd(x, radial, tangential_x), distorted_y = hn::MulAdd(y, radial, tangential_y);
     const auto usable = hn::And(hn::Gt(depth, hn::Zero(d)), hn::Lt(r2, coefficient(view.fold_radius_squared)));
     const auto u = hn::MulAdd(distorted_x, coefficient(view.fx), coefficient(view.cx));
@@ -66,16 +67,16 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
 }
 
 // One pixel coordinate along a segment: base + c[0] + t (c[1] + t (... c[5])), t = 0..1 over kSegmentCells cells, the
-// polynomial through six knots, two before the segment's own two and two after. Subtracting the whole pixel `base` before
-// going to single precision keeps positions good to a few millionths of a pixel.
+// polynomial through six knots, two before the segment's own two and two after. Subtracting the whole pixel `base`
+// before going to single precision keeps positions good to a few millionths of a pixel.
 struct Segment {
   int base = 0;
   std::array<float, 6> c;
 };
 
 // Rows: coefficients of t^j over 120; columns: knots at t = -2..3 (inverse of the Vandermonde matrix).
-constexpr double kQuintic[6][6] = {{0, 0, 120, 0, 0, 0},     {6, -60, -40, 120, -30, 4},   {-5, 80, -150, 80, -5, 0},
-                                   {-5, -5, 50, -70, 35, -5}, {5, -20, 30, -20, 5, 0}, {-1, 5, -10, 10, -5, 1}};
+constexpr double kQuintic[6][6] = {{0, 0, 120, 0, 0, 0},      {6, -60, -40, 120, -30, 4}, {-5, 80, -150, 80, -5, 0},
+                                   {-5, -5, 50, -70, 35, -5}, {5, -20, 30, -20, 5, 0},    {-1, 5, -10, 10, -5, 1}};
 
 HWY_INLINE Segment polynomial_through(const double* knot) {
   const double base = std::floor(knot[2]);
@@ -96,7 +97,8 @@ struct Positions {
 };
 
 // The cells of a segment one by one, exactly: for segments that touch a place the camera cannot show.
-HWY_NOINLINE bool positions_one_by_one(const ViewKernel& view, Vec2d first_cell, double cell_m, double z, Positions& out) {
+HWY_NOINLINE bool positions_one_by_one(const ViewKernel& view, Vec2d first_cell, double cell_m, double z,
+                                       Positions& out) {
   bool any = false;
   for (int i = 0; i < kSegmentCells; ++i) {
     const auto pixel = view.camera->project({first_cell.x + i * cell_m, first_cell.y, z});
@@ -121,7 +123,8 @@ HWY_INLINE bool positions_of(const ViewKernel& view, const Knots& knots, int seg
   out.base_v = v.base;
   // 0 <= base + position <= size, in numbers small enough to be exact.
   const VF u_min = hn::Set(f, static_cast<float>(-u.base)), u_max = hn::Set(f, view.width - static_cast<float>(u.base));
-  const VF v_min = hn::Set(f, static_cast<float>(-v.base)), v_max = hn::Set(f, view.height - static_cast<float>(v.base));
+  const VF v_min = hn::Set(f, static_cast<float>(-v.base)),
+           v_max = hn::Set(f, view.height - static_cast<float>(v.base));
   bool any = false;
   for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
     const VF t = hn::Mul(hn::Iota(f, static_cast<float>(i)), hn::Set(f, 1.0f / kSegmentCells));
@@ -131,7 +134,8 @@ HWY_INLINE bool positions_of(const ViewKernel& view, const Knots& knots, int seg
       return sum;
     };
     const VF pu = evaluate(u), pv = evaluate(v);
-    const auto shown = hn::And(hn::And(hn::Ge(pu, u_min), hn::Le(pu, u_max)), hn::And(hn::Ge(pv, v_min), hn::Le(pv, v_max)));
+    const auto shown =
+        hn::And(hn::And(hn::Ge(pu, u_min), hn::Le(pu, u_max)), hn::And(hn::Ge(pv, v_min), hn::Le(pv, v_max)));
     hn::Store(pu, f, out.u.data() + i);
     hn::Store(pv, f, out.v.data() + i);
     hn::Store(hn::IfThenElseZero(shown, hn::Set(f, 1.0f)), f, out.shown.data() + i);
@@ -176,7 +180,8 @@ HWY_INLINE void sample_segment(const LevelKernel& level, const Positions& positi
   const F f;
   const I i32;
   const AxisLevel ax = axis_at_level(positions.base_u, level.scale), ay = axis_at_level(positions.base_v, level.scale);
-  const VF scale = hn::Set(f, level.scale), remainder_x = hn::Set(f, ax.remainder), remainder_y = hn::Set(f, ay.remainder);
+  const VF scale = hn::Set(f, level.scale), remainder_x = hn::Set(f, ax.remainder),
+           remainder_y = hn::Set(f, ay.remainder);
   const VI base_x = hn::Set(i32, ax.base), base_y = hn::Set(i32, ay.base), stride = hn::Set(i32, level.stride);
   const VI border = hn::Set(i32, -1), last_x = hn::Set(i32, level.width - 1), last_y = hn::Set(i32, level.height - 1);
   const VI origin = hn::Set(i32, level.stride + 1);  // element of pixel (0, 0), inside the border
@@ -198,8 +203,8 @@ HWY_INLINE void sample_segment(const LevelKernel& level, const Positions& positi
 }
 
 // Sums of absolute differences C_k of `count` views over one level, added to `costs`; rows of kSegmentCells values.
-HWY_INLINE void add_differences(const float* HWY_RESTRICT luminance, const float* HWY_RESTRICT shown, int count, bool all,
-                                float* HWY_RESTRICT costs) {
+HWY_INLINE void add_differences(const float* HWY_RESTRICT luminance, const float* HWY_RESTRICT shown, int count,
+                                bool all, float* HWY_RESTRICT costs) {
   const F f;
   for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
     for (int k = 0; k + 1 < count; ++k) {
@@ -259,7 +264,8 @@ HWY_INLINE void aggregate_segment(float* HWY_RESTRICT costs, const float* HWY_RE
     VF sum = zero;
     for (int k = 0; k < count; ++k) {
       const VF cost = hn::Load(f, costs + k * kSegmentCells + i);
-      sum = hn::Add(sum, better_half ? hn::IfThenElseZero(hn::Lt(hn::Set(f, static_cast<float>(k)), used), cost) : cost);
+      sum =
+          hn::Add(sum, better_half ? hn::IfThenElseZero(hn::Lt(hn::Set(f, static_cast<float>(k)), used), cost) : cost);
     }
     const VF terms = hn::Mul(hn::Mul(used, hn::Sub(n, one)), hn::Set(f, levels * static_cast<float>(kLuminanceScale)));
     const auto enough = hn::Ge(n, hn::Set(f, static_cast<float>(options.min_views)));
@@ -425,8 +431,13 @@ MatchResult match_planes(const SweepProblem& problem, Executor& executor) {
   executor.parallel_for(problem.grid.height, [&](int row) {
     for (int block = 0; block < problem.block_planes.width(); ++block) {
       const int first_column = block * kBlockCells;
-      RowJob job{&views, &problem.options, problem.grid.cell_center(first_column, row), problem.grid.cell_m, problem.dz_m,
-                 std::min(kBlockCells, problem.grid.width - first_column), problem.planes_at(first_column, row)};
+      RowJob job{&views,
+                 &problem.options,
+                 problem.grid.cell_center(first_column, row),
+                 problem.grid.cell_m,
+                 problem.dz_m,
+                 std::min(kBlockCells, problem.grid.width - first_column),
+                 problem.planes_at(first_column, row)};
       if (job.planes.empty()) continue;
       RowState state = empty_state();
       HWY_DYNAMIC_DISPATCH(match_row)(job, state);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane search with SIMD. What makes it fast: the projection of a row of cells onto a photograph is smooth, so it is
-// computed exactly (double precision, with lens distortion) only at knots kSegmentCells apart and followed in between by
-// a polynomial through six knots, in single precision relative to the segment's first pixel.
+// The plane search with SIMD. What makes it fast: the projection of a row of cells onto a photograph is smooth, so it
+// is computed exactly (double precision, with lens distortion) only at knots kSegmentCells apart and followed in
+// between by a polynomial through six knots, in single precision relative to the segment's first pixel.
 #pragma once
 
 #include "core/executor.h"

@@ -10,10 +10,10 @@
 
 namespace skysweep::sweep::cpu {
 
-constexpr int kSegmentCells = 16;                               // cells between two knots of the projection
+constexpr int kSegmentCells = 16;  // cells between two knots of the projection
 constexpr int kSegmentsPerBlock = kBlockCells / kSegmentCells;
-constexpr int kKnotsBefore = 2;                                 // knots to the left of the first segment
-constexpr int kKnots = kSegmentsPerBlock + 5;                   // and three to the right of the last one's first
+constexpr int kKnotsBefore = 2;                // knots to the left of the first segment
+constexpr int kKnots = kSegmentsPerBlock + 5;  // and three to the right of the last one's first
 constexpr int kMaxWindowLevels = 9;
 
 struct LevelKernel {

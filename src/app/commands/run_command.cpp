@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <thread>
+
+#include "app/commands/commands.h"
+#include "app/console.h"
+#include "app/finish_run.h"
+#include "app/interrupt.h"
+#include "app/option_values.h"
+#include "core/error.h"
+#include "pipeline/session.h"
+#include "raster/crs.h"
+
+namespace skysweep::app {
+namespace {
+
+// The options as they stand on the command line.
+struct RunOptions {
+  std::string images, project, poses;
+  std::optional<std::string> crs, origin, area, heights, preset, config, backend, memory;
+  std::optional<double> cell, dz;
+  int threads = 0;
+  bool planar_fallback = false, fresh = false, strict = false, dry_run = false, json_log = false;
+};
+
+pipeline::RunRequest request_from(const RunOptions& options) {
+  pipeline::RunRequest request;
+  request.images = options.images;
+  request.poses = options.poses;
+  request.project = options.project;
+  request.crs = options.crs;
+  if (options.origin) request.origin = parse_origin(*options.origin);
+  if (options.cell) request.cell_m = require_positive(*options.cell, "--cell");
+  if (options.dz) request.dz_m = require_positive(*options.dz, "--dz");
+  if (options.area) request.area = parse_area(*options.area);
+  if (options.heights) request.heights = parse_height_range(*options.heights);
+  request.preset = options.preset;
+  if (options.config) request.config = *options.config;
+  if (options.backend) request.backend = parse_backend(*options.backend);
+  if (options.memory) request.memory_bytes = parse_memory(*options.memory);
+  if (options.threads < 0) throw usage_error("--threads must be a positive number.");
+  request.threads =
+      options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  request.planar_fallback = options.planar_fallback;
+  request.fresh = options.fresh;
+  request.dry_run = options.dry_run;
+  return request;
+}
+
+void say_plan(const pipeline::RunSummary& summary, Console& console) {
+  const pipeline::ProjectSettings& s = summary.settings;
+  const auto used = std::count_if(summary.images.begin(), summary.images.end(),
+                                  [](const auto& image) { return image.status == index::ImageStatus::used; });
+  console.say(std::to_string(used) + " of " + std::to_string(summary.images.size()) + " photographs would be used, " +
+              std::to_string(summary.tiles_planned) + " tiles of " + std::to_string(s.lattice.tile_cells) + " x " +
+              std::to_string(s.lattice.tile_cells) + " cells of " + std::to_string(s.lattice.cell_m) +
+              " m, plane step " + std::to_string(s.lattice.dz_m) + " m.");
+  console.say("CRS: " + raster::crs_name(s.crs_wkt) + ". Heights: " + raster::vertical_reference(s.crs_wkt) + ".");
+  console.say("Memory: up to " + memory_text(summary.memory.limit_bytes) + ", " +
+              std::to_string(summary.memory.tiles_in_flight) + " tiles at a time, " +
+              memory_text(summary.memory.photo_cache_bytes) + " of decoded photographs. Disk: at most " +
+              memory_text(summary.disk_bytes_needed) + ". Nothing was written.");
+}
+
+int exit_code(const pipeline::RunSummary& summary, const RunOptions& options) {
+  if (summary.interrupted) return kExitInterrupted;
+  const bool refused = std::any_of(summary.images.begin(), summary.images.end(),
+                                   [](const auto& image) { return image.status == index::ImageStatus::refused; });
+  return options.strict && refused ? static_cast<int>(ErrorKind::bad_input) : 0;
+}
+
+int run(const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const pipeline::RunRequest request = request_from(options);
+  Console console(options.json_log);
+  const pipeline::RunSummary summary = pipeline::run(request, console, interrupt_requested());
+  if (options.dry_run) {
+    say_plan(summary, console);
+    return exit_code(summary, options);
+  }
+  console.log_to(pipeline::ProjectPaths(request.project).log());
+  finish_run(request, summary, start, console);
+  return exit_code(summary, options);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, ChosenCommand& chosen) {
+  CLI::App* command = program.add_subcommand("run", "Make or continue a map from a folder of photographs with poses.");
+  auto o = std::make_shared<RunOptions>();
+  command->add_option("IMAGES", o->images, "Folder of photographs; subfolders are read, too")->required();
+  command->add_option("-o,--output", o->project, "Project folder")->required();
+  command
+      ->add_option("--poses", o->poses,
+                   "poses.csv, a COLMAP model folder (text or binary) or an OpenSfM/ODM reconstruction.json")
+      ->required();
+  command->add_option("--crs", o->crs, "CRS of the map, e.g. EPSG:32632; none: a local metric frame");
+  command->add_option("--origin", o->origin, "X,Y,Z added to the poses' positions to reach the CRS");
+  command->add_option("--cell", o->cell, "Side of an output cell in metres (default: the photographs' median GSD)");
+  command->add_option("--dz", o->dz, "Distance of height planes in metres (default: from the geometry)");
+  command->add_option("--aoi", o->area, "x0,y0,x1,y1: only tiles that meet this rectangle, mosaics cropped to it");
+  command->add_option("--z-range", o->heights, "LOW,HIGH: search these heights only (default: found by itself)");
+  command->add_option("--preset", o->preset, "fast, balanced (default) or accurate");
+  command->add_option("--config", o->config, "TOML file over the preset");
+  command->add_option("--backend", o->backend, "auto (default), cpu or reference");
+  command->add_option("--memory", o->memory, "Most memory to use, e.g. 4GiB (default: half of the machine's)");
+  command->add_option("--threads", o->threads, "Number of threads (default: all)");
+  command->add_flag("--planar-fallback", o->planar_fallback,
+                    "Colour cells without height from a horizontal plane, marked as such in the mask");
+  command->add_flag("--fresh", o->fresh, "Start over: throw away what the project folder holds");
+  command->add_flag("--strict", o->strict, "End with exit code 3 if any photograph was refused");
+  command->add_flag("--dry-run", o->dry_run, "Say what would be done and what it takes; write nothing");
+  command->add_flag("--json-log", o->json_log, "One JSON object a line instead of text");
+  command->callback([o, &chosen] { chosen = [o] { return run(*o); }; });
+}
+
+}  // namespace skysweep::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <thread>
+
+#include "app/commands/commands.h"
+#include "app/console.h"
+#include "core/error.h"
+#include "pipeline/project.h"
+#include "pipeline/tbb_executor.h"
+#include "scene/scene_file.h"
+#include "scene/simulate.h"
+
+namespace skysweep::app {
+namespace {
+
+struct SimulateOptions {
+  std::string scene, folder;
+  int threads = 0;
+};
+
+int simulate(const SimulateOptions& options) {
+  if (options.threads < 0) throw usage_error("--threads must be a positive number.");
+  const scene::Scene scene = scene::read_scene(options.scene);
+  Console console(false);
+  pipeline::TbbExecutor executor(
+      options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  bool begun = false;
+  scene::SimulationOptions simulation;
+  simulation.software = pipeline::software_name();
+  simulation.progress = [&](int, int total) {
+    if (!begun) console.begin("photographs and truth", total);
+    begun = true;
+    console.advance();
+  };
+  const scene::Simulation result = scene::simulate(scene, options.folder, executor, simulation);
+  char text[200];
+  std::snprintf(text, sizeof text, "%d photographs, GSD %.4g m, truth in cells of %.4g m: %s", result.photographs,
+                result.gsd_m, result.truth_cell_m, options.folder.c_str());
+  console.say(text);
+  return 0;
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& program, ChosenCommand& chosen) {
+  CLI::App* command =
+      program.add_subcommand("simulate", "Photographs of a synthetic scene with exact poses and truth.");
+  auto o = std::make_shared<SimulateOptions>();
+  command->add_option("SCENE", o->scene, "Scene file (TOML); examples lie in config/scenes")->required();
+  command->add_option("-o,--output", o->folder, "Folder for photographs, poses and truth")->required();
+  command->add_option("--threads", o->threads, "Number of threads (default: all)");
+  command->callback([o, &chosen] { chosen = [o] { return simulate(*o); }; });
+}
+
+}  // namespace skysweep::app

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/configuration.h"
+
+#include "core/error.h"
+#include "settings/preset.h"
+
+namespace skysweep::pipeline {
+namespace {
+
+using settings::TomlTable;
+using settings::TomlWriter;
+
+constexpr const char* kAllViews = "all";
+constexpr const char* kBetterHalf = "better-half";
+
+// One list of (key, member) serves reading and writing: a setting cannot be read and not written.
+class Reader {
+ public:
+  explicit Reader(const TomlTable& table) : table_(table) {}
+  void operator()(const char* key, int& member) { set(member, table_.integer(key)); }
+  void operator()(const char* key, double& member) { set(member, table_.number(key)); }
+  void operator()(const char* key, bool& member) { set(member, table_.boolean(key)); }
+  void operator()(const char* key, sweep::Aggregation& member) {
+    const auto text = table_.string(key);
+    if (!text) return;
+    if (*text != kAllViews && *text != kBetterHalf)
+      throw usage_error(table_.where(key) + " must be \"" + kAllViews + "\" or \"" + kBetterHalf + "\".");
+    member = *text == kAllViews ? sweep::Aggregation::all_views : sweep::Aggregation::better_half;
+  }
+
+ private:
+  template <typename T, typename U>
+  void set(T& member, const std::optional<U>& value) {
+    if (value) member = static_cast<T>(*value);
+  }
+  const TomlTable& table_;
+};
+
+class Writer {
+ public:
+  explicit Writer(TomlWriter& toml) : toml_(toml) {}
+  void operator()(const char* key, int& member) { toml_.integer(key, member); }
+  void operator()(const char* key, double& member) { toml_.number(key, member); }
+  void operator()(const char* key, bool& member) { toml_.boolean(key, member); }
+  void operator()(const char* key, sweep::Aggregation& member) {
+    toml_.string(key, member == sweep::Aggregation::all_views ? kAllViews : kBetterHalf);
+  }
+
+ private:
+  TomlWriter& toml_;
+};
+
+template <typename Visitor>
+void visit(PhotographOptions& o, Visitor&& key) {
+  key("near_vertical_limit_deg", o.near_vertical_limit_deg);
+}
+
+template <typename Visitor>
+void visit(TileOptions& o, Visitor&& key) {
+  key("cells", o.cells);
+  key("collar_cells", o.collar_cells);
+}
+
+template <typename Visitor>
+void visit(index::ViewSelectionOptions& o, Visitor&& key) {
+  key("count", o.views);
+  key("max_off_nadir_deg", o.max_off_nadir_deg);
+  key("min_baseline_ratio", o.min_baseline_ratio);
+  key("full_baseline_ratio", o.full_baseline_ratio);
+  key("min_views", o.min_views);
+}
+
+template <typename Visitor>
+void visit(sweep::SweepOptions& o, Visitor&& key) {
+  key("window_level_min", o.window_level_min);
+  key("window_level_max", o.window_level_max);
+  key("aggregation", o.aggregation);
+  key("min_views", o.min_views);
+  key("max_cost", o.max_cost);
+  key("max_cost_to_mean", o.max_cost_to_mean);
+  key("plane_step_px", o.plane_step_px);
+  key("planar_fallback", o.planar_fallback);
+}
+
+// Calls f(section name, options) for each section.
+template <typename F>
+void for_each_section(Configuration& c, F&& f) {
+  f("photographs", c.photographs);
+  f("tiles", c.tiles);
+  f("views", c.views);
+  f("sweep", c.sweep);
+}
+
+std::optional<std::string> problem(const PhotographOptions& o) {
+  if (!(o.near_vertical_limit_deg >= 3 && o.near_vertical_limit_deg <= 80))
+    return "near_vertical_limit_deg must lie between 3 and 80";
+  return std::nullopt;
+}
+
+std::optional<std::string> problem(const TileOptions& o) {
+  if (o.cells < 64 || o.cells > 4096 || o.cells % 64 != 0) return "cells must be a multiple of 64 from 64 to 4096";
+  if (o.collar_cells < 0 || o.collar_cells > 512) return "collar_cells must lie between 0 and 512";
+  return std::nullopt;
+}
+
+std::optional<std::string> problem(const index::ViewSelectionOptions& o) {
+  if (o.views > sweep::kMaxViews) return "count must not exceed " + std::to_string(sweep::kMaxViews);
+  return o.problem();
+}
+
+std::optional<std::string> problem(const sweep::SweepOptions& o) { return o.problem(); }
+
+}  // namespace
+
+Configuration configuration_from(const TomlTable& toml) {
+  Configuration configuration;
+  for_each_section(configuration, [&](const char* name, auto& options) {
+    const std::optional<TomlTable> table = toml.table(name);
+    if (!table) return;
+    visit(options, Reader(*table));
+    if (const auto sentence = problem(options)) throw usage_error(toml.where(name) + ": " + *sentence + ".");
+  });
+  return configuration;
+}
+
+Configuration read_configuration(const std::string& preset, const std::optional<std::filesystem::path>& file) {
+  const TomlTable toml = settings::read_settings(preset, file);
+  const Configuration configuration = configuration_from(toml);
+  toml.refuse_unknown();
+  return configuration;
+}
+
+void write_configuration(TomlWriter& toml, const Configuration& configuration) {
+  Configuration copy = configuration;  // one visitor serves reading and writing
+  for_each_section(copy, [&](const char* name, auto& options) {
+    toml.section(name);
+    visit(options, Writer(toml));
+  });
+}
+
+std::string configuration_text(const Configuration& configuration) {
+  TomlWriter toml;
+  write_configuration(toml, configuration);
+  return toml.text();
+}
+
+}  // namespace skysweep::pipeline

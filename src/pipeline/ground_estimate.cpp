@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/ground_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "sweep/depth_probe.h"
+
+namespace skysweep::pipeline {
+namespace {
+
+using index::ImageRecord;
+
+constexpr int kProbes = 12;          // photographs probed
+constexpr int kProbeNeighbours = 4;  // each against so many
+// Photographs nearer than this share of the typical distance between neighbours show no parallax.
+constexpr double kSamePlace = 0.2;
+// Surfaces may rise to a tenth of the flying height below the camera, and the ground fall to twice of it.
+constexpr double kNearestShare = 0.1, kFarthestShare = 2;
+// Photographs serve what they show down to a little below the typical ground, or the lowest ground seen.
+constexpr double kReachOfMedian = 1.15, kReachOfFarthest = 1.1;
+// Views whose rays meet at more than this baseline-to-height ratio hardly ever serve the same place.
+constexpr double kLargestBaselineRatio = 0.8;
+constexpr double kSmallestBaselineRatio = 0.02;
+
+std::vector<const ImageRecord*> used_records(const std::vector<ImageRecord>& records) {
+  std::vector<const ImageRecord*> used;
+  for (const ImageRecord& record : records)
+    if (record.status == index::ImageStatus::used) used.push_back(&record);
+  return used;
+}
+
+double distance_on_ground(const ImageRecord& a, const ImageRecord& b) {
+  return norm(Vec2d{a.pose.center.x - b.pose.center.x, a.pose.center.y - b.pose.center.y});
+}
+
+// The others by distance, nearest first; equal distances by name, so that the order of arrival does not matter.
+std::vector<const ImageRecord*> others_by_distance(const ImageRecord& from,
+                                                   const std::vector<const ImageRecord*>& all) {
+  std::vector<const ImageRecord*> others;
+  for (const ImageRecord* record : all)
+    if (record != &from) others.push_back(record);
+  std::sort(others.begin(), others.end(), [&](const ImageRecord* a, const ImageRecord* b) {
+    const double da = distance_on_ground(from, *a), db = distance_on_ground(from, *b);
+    return da != db ? da < db : a->name < b->name;
+  });
+  return others;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double typical_neighbour_distance(const std::vector<const ImageRecord*>& used) {
+  std::vector<double> distances;
+  for (const ImageRecord* record : used) {
+    // The nearest that is not at the very same place.
+    for (const ImageRecord* other : others_by_distance(*record, used)) {
+      const double distance = distance_on_ground(*record, *other);
+      if (distance <= 0) continue;
+      distances.push_back(distance);
+      break;
+    }
+  }
+  return distances.empty() ? 0 : median(distances);
+}
+
+// Evenly spread over the names, first and last included.
+std::vector<const ImageRecord*> probed_records(const std::vector<const ImageRecord*>& used) {
+  std::set<const ImageRecord*> chosen;
+  const int count = std::min(kProbes, static_cast<int>(used.size()));
+  for (int i = 0; i < count; ++i) chosen.insert(used[i * (used.size() - 1) / std::max(1, count - 1)]);
+  std::vector<const ImageRecord*> sorted(chosen.begin(), chosen.end());
+  std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
+  return sorted;
+}
+
+std::optional<sweep::DepthProbe> probe(const ImageRecord& record, const std::vector<const ImageRecord*>& used,
+                                       double typical_distance, PhotoCache& photos) {
+  // Relative to the photograph itself: differences of snapped positions are exact wherever the scene lies.
+  const auto view_of = [&](const ImageRecord& r, const sweep::ImagePyramid& image) {
+    return sweep::View{&image, camera::Camera(r.model, r.pose).relative_to(record.pose.center), 0};
+  };
+  std::vector<std::shared_ptr<const sweep::ImagePyramid>> images;
+  std::vector<sweep::View> neighbours;
+  try {
+    images.push_back(photos.get(record.name));
+    for (const ImageRecord* other : others_by_distance(record, used)) {
+      if (static_cast<int>(neighbours.size()) == kProbeNeighbours) break;
+      if (distance_on_ground(record, *other) < kSamePlace * typical_distance) continue;
+      images.push_back(photos.get(other->name));
+      neighbours.push_back(view_of(*other, *images.back()));
+    }
+  } catch (const Error&) {
+    return std::nullopt;  // a photograph that cannot be decoded is set aside, with its reason, when a tile needs it
+  }
+  return sweep::probe_depth(view_of(record, *images.front()), neighbours);
+}
+
+SearchRange around(double median_depth, double farthest_depth) {
+  SearchRange search;
+  search.ground_depth_m = median_depth;
+  search.reach_depth_m = std::max(kReachOfMedian * median_depth, kReachOfFarthest * farthest_depth);
+  search.nearest_depth_m = kNearestShare * median_depth;
+  search.farthest_depth_m = std::max(kFarthestShare * median_depth, search.reach_depth_m);
+  return search;
+}
+
+SearchRange below_cameras(const std::vector<const ImageRecord*>& used, const sweep::HeightRange& heights) {
+  std::vector<double> to_middle;
+  double farthest = 0;
+  for (const ImageRecord* record : used) {
+    const double z = record->pose.center.z;
+    if (z <= heights.z_low) continue;
+    to_middle.push_back(std::max(z - 0.5 * (heights.z_low + heights.z_high), 0.5 * (z - heights.z_low)));
+    farthest = std::max(farthest, z - heights.z_low);
+  }
+  if (to_middle.empty())
+    throw bad_input(
+        "All cameras are below the height range given by --z-range: heights and positions must be in the "
+        "same vertical reference.");
+  SearchRange search = around(median(to_middle), farthest);
+  search.heights = heights;
+  return search;
+}
+
+// Two significant digits: short to read, and the same for the same flight on every machine.
+double rounded(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  const double digits = std::round(value / unit);
+  // Dividing by a power of ten gives the double nearest to the decimal number; multiplying by 0.001 does not.
+  return unit < 1 ? digits / std::round(1 / unit) : digits * std::round(unit);
+}
+
+}  // namespace
+
+SearchRange estimate_search_range(const std::vector<ImageRecord>& records,
+                                  const std::optional<sweep::HeightRange>& heights, PhotoCache& photos,
+                                  Executor& executor) {
+  const std::vector<const ImageRecord*> used = used_records(records);
+  if (heights) return below_cameras(used, *heights);
+  const double typical_distance = typical_neighbour_distance(used);
+  if (typical_distance <= 0)
+    throw bad_input("All photographs were taken from the same place: without a baseline no height can be measured.");
+
+  const std::vector<const ImageRecord*> probed = probed_records(used);
+  std::vector<std::optional<sweep::DepthProbe>> probes(probed.size());
+  executor.parallel_for(static_cast<int>(probed.size()),
+                        [&](int i) { probes[i] = probe(*probed[i], used, typical_distance, photos); });
+  std::vector<double> medians;
+  double farthest = 0;
+  for (const auto& found : probes) {
+    if (!found) continue;
+    medians.push_back(found->median_m);
+    farthest = std::max(farthest, found->farthest_m);
+  }
+  if (medians.empty())
+    throw bad_input(
+        "The photographs' overlap could not be found: neighbouring photographs show no common ground at any "
+        "height. Check that the poses belong to these photographs, or give --z-range LOW,HIGH.");
+  const double middle = median(medians);
+  return around(middle, std::min(farthest, kFarthestShare * middle));
+}
+
+double default_cell(const std::vector<ImageRecord>& records, const SearchRange& search) {
+  std::vector<double> gsds;
+  for (const ImageRecord* record : used_records(records))
+    gsds.push_back(search.ground_depth_m / record->model.focal_px());
+  return rounded(median(gsds));
+}
+
+double default_plane_step(const std::vector<ImageRecord>& records, const SearchRange& search, double plane_step_px) {
+  const std::vector<const ImageRecord*> used = used_records(records);
+  std::vector<double> steps;
+  for (const ImageRecord* record : used) {
+    double ratio = kSmallestBaselineRatio;
+    for (const ImageRecord* other : others_by_distance(*record, used)) {
+      const double r = distance_on_ground(*record, *other) / search.ground_depth_m;
+      if (r > kLargestBaselineRatio) break;
+      ratio = std::max(ratio, r);
+    }
+    steps.push_back(plane_step_px * search.ground_depth_m / record->model.focal_px() / ratio);
+  }
+  return rounded(median(steps));
+}
+
+}  // namespace skysweep::pipeline

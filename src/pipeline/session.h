@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run over a folder of photographs: from files to a project whose tiles and catalogue are complete.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/box.h"
+#include "index/image_record.h"
+#include "pipeline/memory_plan.h"
+#include "pipeline/progress.h"
+#include "pipeline/project.h"
+
+namespace skysweep::pipeline {
+
+struct RunRequest {
+  std::filesystem::path images;
+  std::filesystem::path poses;
+  std::filesystem::path project;
+  std::optional<std::string> crs;  // as the user names it; none: a local metric frame
+  Vec3d origin;                    // added to the poses' positions
+  std::optional<double> cell_m;
+  std::optional<double> dz_m;
+  std::optional<Box2d> area;  // --aoi, map coordinates
+  std::optional<sweep::HeightRange> heights;
+  std::optional<std::string> preset;
+  std::optional<std::filesystem::path> config;
+  std::optional<sweep::Backend> backend;
+  std::optional<std::size_t> memory_bytes;
+  int threads = 1;
+  bool planar_fallback = false;  // as [sweep] planar_fallback = true
+  bool fresh = false;            // throw away what the project holds
+  bool dry_run = false;          // find out everything, write nothing
+};
+
+struct RunSummary {
+  ProjectSettings settings;
+  std::vector<index::ImageRecord> images;
+  MemoryPlan memory;
+  std::uint64_t disk_bytes_needed = 0;  // at most
+  int tiles_planned = 0;
+  int tiles_computed = 0;
+  int tiles_kept = 0;   // already there with the same inputs
+  int tiles_empty = 0;  // looked at, and nothing could be known
+  int parents_written = 0;
+  double samples = 0;  // luminance samples of the fine sweep
+  int photographs_decoded = 0;
+  bool interrupted = false;
+  bool changed() const { return tiles_computed > 0 || parents_written > 0; }
+};
+
+// Throws Error. When `stop` becomes true, tiles in work are finished, nothing new is begun, parents are brought up to
+// date, and the summary says interrupted: the next run goes on from there.
+RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<bool>& stop);
+
+}  // namespace skysweep::pipeline

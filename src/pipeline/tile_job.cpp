@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/tile_job.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "pipeline/tile_geometry.h"
+#include "raster/digest.h"
+
+namespace skysweep::pipeline {
+namespace {
+
+using index::ImageRecord;
+
+std::vector<std::shared_ptr<const sweep::ImagePyramid>> load_photographs(const std::vector<std::string>& names,
+                                                                         PhotoCache& photos, Executor& executor) {
+  std::vector<std::shared_ptr<const sweep::ImagePyramid>> images(names.size());
+  executor.parallel_for(static_cast<int>(names.size()), [&](int i) {
+    try {
+      images[i] = photos.get(names[i]);
+    } catch (const Error& error) {
+      throw PhotographFailed(names[i], error.what());
+    }
+  });
+  return images;
+}
+
+template <typename T>
+Array2d<T> without_collar(const Array2d<T>& values, const TileOptions& options) {
+  return crop(values, options.collar_cells, options.collar_cells, options.cells, options.cells);
+}
+
+tiles::Tile tile_from(const sweep::SweepResult& result, const TileOptions& options) {
+  tiles::Tile tile;
+  tile.dem = without_collar(result.height_m, options);
+  tile.confidence = without_collar(result.sigma_m, options);
+  tile.color = without_collar(result.color, options);
+  const Array2d<std::uint8_t> planar = without_collar(result.planar, options);
+  tile.mask = Array2d<std::uint8_t>(options.cells, options.cells);
+  for (std::size_t i = 0; i < tile.mask.size(); ++i) {
+    const bool measured = !std::isnan(tile.dem.data()[i]);
+    const tiles::CellSource source = measured                ? tiles::CellSource::measured
+                                     : planar.data()[i] != 0 ? tiles::CellSource::planar
+                                                             : tiles::CellSource::none;
+    tile.mask.data()[i] = static_cast<std::uint8_t>(source);
+  }
+  return tile;
+}
+
+double share_with_height(const Array2d<float>& dem) {
+  const auto known = std::count_if(dem.begin(), dem.end(), [](float z) { return !std::isnan(z); });
+  return static_cast<double>(known) / static_cast<double>(dem.size());
+}
+
+}  // namespace
+
+PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const ImageRecord*>& candidates,
+                          const ProjectSettings& settings, PhotoCache& photos, Executor& executor) {
+  const TileGeometry geometry(key, candidates, settings);
+  PreparedTile prepared;
+  prepared.problem = geometry.empty_problem();
+
+  // The ground is first guessed below the cameras, then found by a coarse sweep with the views that serve the guess.
+  prepared.selection = geometry.select(geometry.guessed_heights());
+  prepared.images = load_photographs(geometry.names(prepared.selection), photos, executor);
+  prepared.problem.views = geometry.views(prepared.selection, prepared.images, geometry.guessed_heights());
+  if (prepared.problem.views.size() >= 2) {
+    const sweep::HeightRange search = geometry.searched_heights();
+    prepared.heights = sweep::find_planes(prepared.problem, search.z_low, search.z_high, settings.backend, executor);
+  }
+  if (prepared.heights) {
+    prepared.selection = geometry.select(*prepared.heights);
+    prepared.images = load_photographs(geometry.names(prepared.selection), photos, executor);
+    prepared.problem.views = geometry.views(prepared.selection, prepared.images, *prepared.heights);
+  }
+  prepared.view_names = geometry.names(prepared.selection);
+  return prepared;
+}
+
+TileOutcome compute_tile(tiles::TileKey key, const std::vector<const ImageRecord*>& candidates,
+                         const ProjectSettings& settings, PhotoCache& photos, Executor& executor) {
+  const PreparedTile prepared = prepare_tile(key, candidates, settings, photos, executor);
+  const sweep::SweepResult result = sweep::plane_sweep(prepared.problem, settings.backend, executor);
+  TileOutcome outcome;
+  outcome.tile = tile_from(result, settings.configuration.tiles);
+  outcome.views = prepared.view_names;
+  outcome.heights = prepared.heights;
+  outcome.valid_share = share_with_height(outcome.tile.dem);
+  outcome.samples = sweep::sample_count(prepared.problem);
+  return outcome;
+}
+
+bool TileOutcome::empty() const {
+  return valid_share == 0 && std::all_of(tile.color.begin(), tile.color.end(), [](Rgba8 c) { return c.a == 0; });
+}
+
+std::string tile_digest(tiles::TileKey key, const std::vector<const ImageRecord*>& candidates,
+                        const ProjectSettings& settings) {
+  raster::Digest digest;
+  digest.add_field(key.name());
+  digest.add_field(settings_text(settings));
+  const auto add_numbers = [&digest](std::initializer_list<double> values) {
+    for (const double v : values) digest.add_bytes({reinterpret_cast<const char*>(&v), sizeof v});
+  };
+  for (const ImageRecord* image : candidates) {
+    const camera::CameraModel& m = image->model;
+    const Vec3d c = image->pose.center;
+    digest.add_field(image->name);
+    digest.add_field(image->content_digest);
+    add_numbers({m.fx_px, m.fy_px, m.cx_px, m.cy_px, m.distortion.k1, m.distortion.k2, m.distortion.p1, m.distortion.p2,
+                 m.distortion.k3, c.x, c.y, c.z});
+    for (const double r : image->pose.cam_from_world.m) add_numbers({r});
+  }
+  return digest.hex();
+}
+
+}  // namespace skysweep::pipeline
