@@ -38,12 +38,11 @@ struct Choice {
   Tally tally;             // with all of them added
 };
 
-// Coverage first: as long as some point is shown by too few and a view can help, only such points count.
+// As long as some point is shown by too few and a view can help; only such points count.
 Choice choose(const std::vector<TileView>& views, const ViewSelectionOptions& options) {
   Choice choice{{}, Tally(options)};
-  while (static_cast<int>(choice.views.size()) < options.views) {
-    std::optional<int> next = best_addition(views, choice.tally, Points::in_need);
-    if (!next) next = best_addition(views, choice.tally, Points::all);
+  while (static_cast<int>(choice.views.size()) < options.max_views) {
+    const std::optional<int> next = best_addition(views, choice.tally, Points::in_need);
     if (!next) break;
     choice.tally.add(views[*next]);
     choice.views.push_back(*next);
@@ -94,12 +93,12 @@ std::string reason_of(const ViewVerdict& verdict, const TileView& view, const Ch
 }  // namespace
 
 std::optional<std::string> ViewSelectionOptions::problem() const {
-  if (views < 2) return "views must be at least 2: heights come from pairs of photographs";
+  if (views_per_place < 2) return "views_per_place must be at least 2: heights come from pairs of photographs";
+  if (max_views < views_per_place) return "max_views must not be less than views_per_place";
   if (!(max_off_nadir_deg > 0 && max_off_nadir_deg <= 90))
     return "max_off_nadir_deg must be more than 0 and at most 90";
   if (!(min_baseline_ratio >= 0)) return "min_baseline_ratio must be 0 or more";
   if (!(full_baseline_ratio > min_baseline_ratio)) return "full_baseline_ratio must be more than min_baseline_ratio";
-  if (min_views < 1) return "min_views must be at least 1";
   return std::nullopt;
 }
 

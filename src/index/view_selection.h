@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which N photographs serve a tile best: those that together show all of it several times, from near nadir, at fine
-// ground sampling distance, and from different sides.
+// Which photographs serve a tile best: those that together show every part of it N times, from near nadir, at fine ground
+// sampling distance, and from different sides.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@
 namespace skysweep::index {
 
 struct ViewSelectionOptions {
-  int views = 8;                      // N: at most so many photographs for a tile
+  int views_per_place = 8;            // N: every part of the tile is shown this often, where it can be
+  int max_views = 32;                 // and at most so many photographs serve the whole tile
   double max_off_nadir_deg = 40;      // steeper rays than this from nadir at a point do not count for the point
   double min_baseline_ratio = 0.05;   // views closer together than this share of the depth add no height information
   double full_baseline_ratio = 0.25;  // farther apart than this they add no more than at this
-  int min_views = 3;  // every part of the tile is shown this often, where it can be, before any part more
   // Nothing when the options can be used, else a sentence that says what to change.
   std::optional<std::string> problem() const;
 };

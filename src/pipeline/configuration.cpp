@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/configuration.h"
 
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
 #include "core/error.h"
 #include "settings/preset.h"
 
@@ -10,8 +14,20 @@ namespace {
 using settings::TomlTable;
 using settings::TomlWriter;
 
-constexpr const char* kAllViews = "all";
-constexpr const char* kBetterHalf = "better-half";
+// The words that stand for the values of an enumeration, in the order of the values.
+template <typename Enum>
+constexpr int kWords = 0;
+template <>
+constexpr std::array<const char*, 3> kWords<sweep::Aggregation>{"all", "better-half", "consensus"};
+template <>
+constexpr std::array<const char*, 2> kWords<sweep::Smoothing>{"none", "semi-global"};
+
+template <typename Words>
+std::string listed(const Words& words) {
+  std::string text;
+  for (const char* word : words) text += (text.empty() ? "\"" : ", \"") + std::string(word) + "\"";
+  return text;
+}
 
 // One list of (key, member) serves reading and writing: a setting cannot be read and not written.
 class Reader {
@@ -20,12 +36,16 @@ class Reader {
   void operator()(const char* key, int& member) { set(member, table_.integer(key)); }
   void operator()(const char* key, double& member) { set(member, table_.number(key)); }
   void operator()(const char* key, bool& member) { set(member, table_.boolean(key)); }
-  void operator()(const char* key, sweep::Aggregation& member) {
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char* key, Enum& member) {
     const auto text = table_.string(key);
     if (!text) return;
-    if (*text != kAllViews && *text != kBetterHalf)
-      throw usage_error(table_.where(key) + " must be \"" + kAllViews + "\" or \"" + kBetterHalf + "\".");
-    member = *text == kAllViews ? sweep::Aggregation::all_views : sweep::Aggregation::better_half;
+    const auto& words = kWords<Enum>;
+    const auto found = std::find(words.begin(), words.end(), *text);
+    if (found == words.end())
+      throw usage_error(table_.where(key) + " must be one of " + listed(words) + ".");
+    member = static_cast<Enum>(found - words.begin());
   }
 
  private:
@@ -42,9 +62,9 @@ class Writer {
   void operator()(const char* key, int& member) { toml_.integer(key, member); }
   void operator()(const char* key, double& member) { toml_.number(key, member); }
   void operator()(const char* key, bool& member) { toml_.boolean(key, member); }
-  void operator()(const char* key, sweep::Aggregation& member) {
-    toml_.string(key, member == sweep::Aggregation::all_views ? kAllViews : kBetterHalf);
-  }
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char* key, Enum& member) { toml_.string(key, kWords<Enum>[static_cast<std::size_t>(member)]); }
 
  private:
   TomlWriter& toml_;
@@ -63,11 +83,11 @@ void visit(TileOptions& o, Visitor&& key) {
 
 template <typename Visitor>
 void visit(index::ViewSelectionOptions& o, Visitor&& key) {
-  key("count", o.views);
+  key("views_per_place", o.views_per_place);
+  key("max_views", o.max_views);
   key("max_off_nadir_deg", o.max_off_nadir_deg);
   key("min_baseline_ratio", o.min_baseline_ratio);
   key("full_baseline_ratio", o.full_baseline_ratio);
-  key("min_views", o.min_views);
 }
 
 template <typename Visitor>
@@ -75,7 +95,11 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("window_level_min", o.window_level_min);
   key("window_level_max", o.window_level_max);
   key("aggregation", o.aggregation);
+  key("smoothing", o.smoothing);
+  key("small_step_penalty", o.small_step_penalty);
+  key("large_step_penalty", o.large_step_penalty);
   key("min_views", o.min_views);
+  key("few_views_penalty", o.few_views_penalty);
   key("max_cost", o.max_cost);
   key("max_cost_to_mean", o.max_cost_to_mean);
   key("plane_step_px", o.plane_step_px);
@@ -104,7 +128,7 @@ std::optional<std::string> problem(const TileOptions& o) {
 }
 
 std::optional<std::string> problem(const index::ViewSelectionOptions& o) {
-  if (o.views > sweep::kMaxViews) return "count must not exceed " + std::to_string(sweep::kMaxViews);
+  if (o.max_views > sweep::kMaxViews) return "max_views must not exceed " + std::to_string(sweep::kMaxViews);
   return o.problem();
 }
 

@@ -17,8 +17,8 @@ constexpr int kProbes = 12;          // photographs probed
 constexpr int kProbeNeighbours = 4;  // each against so many
 // Photographs nearer than this share of the typical distance between neighbours show no parallax.
 constexpr double kSamePlace = 0.2;
-// Surfaces may rise to a tenth of the flying height below the camera, and the ground fall to twice of it.
-constexpr double kNearestShare = 0.1, kFarthestShare = 2;
+// Surfaces may rise to a tenth of the flying height below the camera.
+constexpr double kNearestShare = 0.1;
 // Photographs serve what they show down to a little below the typical ground, or the lowest ground seen.
 constexpr double kReachOfMedian = 1.15, kReachOfFarthest = 1.1;
 // Views whose rays meet at more than this baseline-to-height ratio hardly ever serve the same place.
@@ -106,7 +106,7 @@ SearchRange around(double median_depth, double farthest_depth) {
   search.ground_depth_m = median_depth;
   search.reach_depth_m = std::max(kReachOfMedian * median_depth, kReachOfFarthest * farthest_depth);
   search.nearest_depth_m = kNearestShare * median_depth;
-  search.farthest_depth_m = std::max(kFarthestShare * median_depth, search.reach_depth_m);
+  search.farthest_depth_m = search.reach_depth_m;
   return search;
 }
 
@@ -163,7 +163,7 @@ SearchRange estimate_search_range(const std::vector<ImageRecord>& records,
         "The photographs' overlap could not be found: neighbouring photographs show no common ground at any "
         "height. Check that the poses belong to these photographs, or give --z-range LOW,HIGH.");
   const double middle = median(medians);
-  return around(middle, std::min(farthest, kFarthestShare * middle));
+  return around(middle, farthest);
 }
 
 double default_cell(const std::vector<ImageRecord>& records, const SearchRange& search) {

@@ -45,7 +45,7 @@ MemoryPlan plan_memory(std::size_t limit_bytes, const std::vector<index::ImageRe
 
   const auto decoding = static_cast<std::size_t>(threads * kDecodingOverhead * static_cast<double>(largest_photo));
   // A tile holds the photographs of its guess and of its final choice.
-  const std::size_t photos_of_a_tile = 2 * static_cast<std::size_t>(configuration.views.views) * largest_photo;
+  const std::size_t photos_of_a_tile = 2 * static_cast<std::size_t>(configuration.views.max_views) * largest_photo;
   const auto needed = [&](int tiles) {
     const std::size_t photos = std::min(all_photos, static_cast<std::size_t>(tiles) * photos_of_a_tile);
     return plan.program_bytes + decoding + static_cast<std::size_t>(tiles) * plan.tile_bytes + photos;
@@ -56,9 +56,9 @@ MemoryPlan plan_memory(std::size_t limit_bytes, const std::vector<index::ImageRe
     throw Error(ErrorKind::memory_plan, "--memory allows " + std::to_string(limit_bytes / kMiB) +
                                             " MiB, but one tile of " + std::to_string(configuration.tiles.cells) +
                                             " x " + std::to_string(configuration.tiles.cells) + " cells with up to " +
-                                            std::to_string(configuration.views.views) + " photographs needs " +
+                                            std::to_string(configuration.views.max_views) + " photographs needs " +
                                             std::to_string(needed(1) / kMiB + 1) +
-                                            " MiB: allow that much, or set [tiles] cells or [views] count lower.");
+                                            " MiB: allow that much, or set [tiles] cells or [views] max_views lower.");
   const auto tiles = static_cast<std::size_t>(plan.tiles_in_flight);
   plan.photo_cache_bytes = std::min(all_photos, limit_bytes - plan.program_bytes - decoding - tiles * plan.tile_bytes);
   return plan;

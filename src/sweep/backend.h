@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/executor.h"
+#include "sweep/cost_volume.h"
 #include "sweep/match_result.h"
 #include "sweep/sweep_problem.h"
 
@@ -18,8 +19,13 @@ enum class Backend {
 
 const char* to_string(Backend backend);
 
-// The search over planes. Rows of blocks run through `executor`; the result does not depend on how.
+// The search over planes, as options.smoothing says. The result does not depend on how `executor` runs its parts.
 MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor& executor);
+
+// Its stages: the costs of all planes; or, without smoothing, the best plane of each cell by itself, with no volume
+// kept.
+CostVolume match_costs(const SweepProblem& problem, Backend backend, Executor& executor);
+MatchResult match_cell_by_cell(const SweepProblem& problem, Backend backend, Executor& executor);
 
 // Instruction sets of the cpu backend that this machine has, best first; and the one in use.
 std::vector<std::string> cpu_instruction_sets();

@@ -17,6 +17,8 @@ constexpr double kNearestBaselines = 0.5, kFarthestBaselines = 60;  // depths se
 constexpr double kGoodCorrelation = 0.6;
 constexpr double kDistinct = 0.1;  // the best plane must beat all that are not next to it by this much
 constexpr int kFewestPixels = 30;
+constexpr int kAgreeing = 4;   // of the eight neighbours, so many must find nearly the same plane
+constexpr int kPeakWidth = 6;  // planes that count as the same peak
 
 struct LowResolution {
   int level = 0;
@@ -93,6 +95,34 @@ Array2d<float> low_resolution_luminance(const View& view, const LowResolution& s
   return out;
 }
 
+constexpr int kNoPlane = -1000;
+
+// The plane with the best score of each pixel, where it is good and no plane apart from it comes near.
+Array2d<int> distinct_planes(const std::vector<Array2d<float>>& scores) {
+  Array2d<int> planes(scores[0].width(), scores[0].height(), kNoPlane);
+  const int count = static_cast<int>(scores.size());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    int best = 0;
+    for (int d = 1; d < count; ++d)
+      if (scores[d].data()[i] > scores[best].data()[i]) best = d;
+    const float peak = scores[best].data()[i];
+    bool distinct = peak >= kGoodCorrelation;
+    for (int d = 0; d < count && distinct; ++d)
+      distinct = std::abs(d - best) <= kPeakWidth || scores[d].data()[i] <= peak - kDistinct;
+    if (distinct) planes.data()[i] = best;
+  }
+  return planes;
+}
+
+bool confirmed(const Array2d<int>& planes, int x, int y) {
+  if (planes(x, y) == kNoPlane) return false;
+  int agreeing = -1;  // the pixel itself
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx)
+      agreeing += planes.contains(x + dx, y + dy) && std::abs(planes(x + dx, y + dy) - planes(x, y)) <= kPeakWidth;
+  return agreeing >= kAgreeing;
+}
+
 }  // namespace
 
 std::optional<DepthProbe> probe_depth(const View& reference, const std::vector<View>& neighbours) {
@@ -120,19 +150,11 @@ std::optional<DepthProbe> probe_depth(const View& reference, const std::vector<V
       if (count.data()[i] > 0) scores[d].data()[i] = sum.data()[i] / count.data()[i];
   }
 
+  const Array2d<int> planes = distinct_planes(scores);
   std::vector<double> trusted;
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    int best = 0;
-    for (std::size_t d = 1; d < depths.size(); ++d)
-      if (scores[d].data()[i] > scores[best].data()[i]) best = static_cast<int>(d);
-    const float peak = scores[best].data()[i];
-    if (peak < kGoodCorrelation) continue;
-    constexpr int kPeakWidth = 6;
-    bool distinct = true;
-    for (int d = 0; d < static_cast<int>(depths.size()); ++d)
-      if (std::abs(d - best) > kPeakWidth && scores[d].data()[i] > peak - kDistinct) distinct = false;
-    if (distinct) trusted.push_back(depths[best]);
-  }
+  for (int y = 0; y < planes.height(); ++y)
+    for (int x = 0; x < planes.width(); ++x)
+      if (confirmed(planes, x, y)) trusted.push_back(depths[planes(x, y)]);
   if (static_cast<int>(trusted.size()) < kFewestPixels) return std::nullopt;
   std::sort(trusted.begin(), trusted.end());
   const auto percentile = [&](double p) { return trusted[static_cast<std::size_t>(p * (trusted.size() - 1))]; };

@@ -19,15 +19,11 @@ struct Height {
 
 std::optional<Height> height_of_cell(const SweepProblem& problem, const MatchResult& m, int column, int row) {
   const SweepOptions& options = problem.options;
-  const double cost = m.cost(column, row);
-  const double below = m.cost_below(column, row), above = m.cost_above(column, row);
-  if (!std::isfinite(cost) || !std::isfinite(below) || !std::isfinite(above)) return std::nullopt;
+  const double cost = m.cost(column, row), bend = m.bend(column, row);
+  if (!std::isfinite(cost) || !(bend > kSmallestBend * (1 + cost))) return std::nullopt;
   if (cost > options.max_cost || cost > options.max_cost_to_mean * m.mean_cost(column, row)) return std::nullopt;
-  const double bend = below - 2 * cost + above;
-  if (!(bend > kSmallestBend * (1 + cost))) return std::nullopt;
-  const double offset = 0.5 * (below - above) / bend;  // in planes, within [-1/2, 1/2] because cost is the least
   const double sigma_planes = std::max(kSmallestSigmaPlanes, cost / bend);
-  return Height{(m.plane(column, row) + offset) * problem.dz_m, sigma_planes * problem.dz_m};
+  return Height{(m.plane(column, row) + m.fraction(column, row)) * problem.dz_m, sigma_planes * problem.dz_m};
 }
 
 }  // namespace

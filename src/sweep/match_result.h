@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the search over planes finds in each cell, before anything is decided about it. The stage that every backend
-// implements; `heights_from_matches` goes on from here.
+// What the search over planes finds in each cell, before anything is decided about it; `heights_from_matches` goes on
+// from here.
 #pragma once
-
-#include <cstdint>
 
 #include "core/array2d.h"
 
@@ -13,13 +11,19 @@ struct MatchResult {
   MatchResult() = default;
   MatchResult(int width, int height);
 
-  // Costs are mean absolute differences in grey levels; infinity = too few views.
-  Array2d<int> plane;                // k of the best plane z = k dz; meaningless where cost is infinite
-  Array2d<float> cost;               // at the best plane; on ties the lowest plane wins
-  Array2d<float> cost_below;         // at the plane below it; infinity if not searched or not seen
-  Array2d<float> cost_above;         // at the plane above it
-  Array2d<float> mean_cost;          // over all planes that had a cost
-  Array2d<std::uint8_t> view_count;  // views that show the cell at the best plane
+  Array2d<int> plane;   // k of the best plane z = k dz; on ties the lowest plane; meaningless where cost is infinite
+  Array2d<float> cost;  // matching cost at the best plane, grey levels; infinity = too few views
+  Array2d<float> mean_cost;  // over all planes that had a cost
+  Array2d<float> fraction;   // vertex of the parabola through the best plane and its neighbours, planes above the best
+  Array2d<float> bend;       // second difference there, grey levels; NaN (both) where a neighbour has no cost
 };
+
+// Vertex (relative to the middle) and second difference of the parabola through three values one apart, the middle one
+// being the least; NaN for both if a value is not finite or the three lie on a line.
+struct Parabola {
+  double vertex = 0;
+  double bend = 0;
+};
+Parabola parabola_through(double below, double middle, double above);
 
 }  // namespace skysweep::sweep

@@ -23,14 +23,15 @@ Colored best_unoccluded(const SweepProblem& problem, const SurfaceVisibility& su
   std::array<bool, kMaxViews> visible{};
   for (std::size_t v = 0; v < problem.views.size(); ++v)
     visible[v] = surface.sees(problem.views[v].camera.pose().center, column, row, point.z);
-  const ViewCosts costs = view_costs(problem, point, &visible);
-  shown_by = costs.count;
+  const ViewSamples samples = sample_views(problem, point, &visible);
+  const std::array<double, kMaxViews> costs = view_costs(samples);
+  shown_by = samples.count;
   Colored best;
   double best_cost = 0;
-  for (int k = 0; k < costs.count; ++k) {
-    if (best.view >= 0 && costs.cost[k] >= best_cost) continue;
-    best = {costs.view[k], costs.pixel[k]};
-    best_cost = costs.cost[k];
+  for (int k = 0; k < samples.count; ++k) {
+    if (best.view >= 0 && costs[k] >= best_cost) continue;
+    best = {samples.view[k], samples.pixel[k]};
+    best_cost = costs[k];
   }
   return best;
 }

@@ -12,7 +12,14 @@ inline constexpr int kMaxViews = 32;
 
 enum class Aggregation {
   all_views,    // mean over all views that show the sample
-  better_half,  // mean over the floor(n/2) views that agree best with the others: forgives occlusion
+  better_half,  // mean over the floor(n/2) views that agree best with all the others
+  consensus,    // of the better half only the differences among themselves count: views that are hidden from the place,
+                // up to half of them, do not raise its cost
+};
+
+enum class Smoothing {
+  none,         // every cell by itself: the classic sweep
+  semi_global,  // along eight paths over the tile's cost volume (sweep/smoothing.h)
 };
 
 struct SweepOptions {
@@ -21,10 +28,21 @@ struct SweepOptions {
   int window_level_min = 0;
   int window_level_max = 3;
 
-  Aggregation aggregation = Aggregation::better_half;
+  Aggregation aggregation = Aggregation::consensus;
+
+  Smoothing smoothing = Smoothing::semi_global;
+
+  // Prices of height steps between neighbouring cells, grey levels of matching cost: P1 for one plane, P2 for more.
+  // Higher ones fill weak texture and swallow thin things.
+  double small_step_penalty = 1;
+  double large_step_penalty = 8;
 
   // A sample that fewer views show has no cost. At least 2.
   int min_views = 2;
+
+  // Added to the cost of a sample, divided by the number of views that show it, grey levels: of few views some agree by
+  // chance, and without this a plane that fewer views can show would win for that reason alone.
+  double few_views_penalty = 6;
 
   // Mean absolute difference in grey levels above which the best plane is not believed.
   double max_cost = 40;

@@ -9,7 +9,10 @@ namespace skysweep::sweep {
 std::optional<std::string> SweepOptions::problem() const {
   if (window_level_min < 0 || window_level_max < window_level_min || window_level_max > 8)
     return "window levels must satisfy 0 <= window_level_min <= window_level_max <= 8";
+  if (!(small_step_penalty >= 0 && large_step_penalty >= small_step_penalty && large_step_penalty <= 60))
+    return "penalties must satisfy 0 <= small_step_penalty <= large_step_penalty <= 60 grey levels";
   if (min_views < 2 || min_views > kMaxViews) return "min_views must lie between 2 and " + std::to_string(kMaxViews);
+  if (!(few_views_penalty >= 0 && few_views_penalty <= 100)) return "few_views_penalty must lie between 0 and 100";
   if (!(max_cost > 0)) return "max_cost must be positive (grey levels)";
   if (!(max_cost_to_mean > 0 && max_cost_to_mean <= 1)) return "max_cost_to_mean must lie above 0 and not above 1";
   if (!(plane_step_px > 0.01 && plane_step_px <= 4)) return "plane_step_px must lie between 0.01 and 4";

@@ -8,46 +8,85 @@
 #include "sweep/sampling_level.h"
 
 namespace skysweep::sweep {
+namespace {
 
-ViewCosts view_costs(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use) {
-  ViewCosts out;
+using Costs = std::array<double, kMaxViews>;
+
+double mean_of_lowest(Costs costs, int count, int used) {
+  std::sort(costs.begin(), costs.begin() + count);
+  double sum = 0;
+  for (int k = 0; k < used; ++k) sum += costs[k];
+  return sum / used;
+}
+
+// Mean difference of the pairs among the views whose C_k is one of the lowest.
+double difference_within_consensus(const ViewSamples& samples, const Costs& costs) {
+  Costs sorted = costs;
+  std::sort(sorted.begin(), sorted.begin() + samples.count);
+  const double limit = sorted[consensus_size(samples.count) - 1];
+  double sum = 0;
+  int pairs = 0;
+  for (int i = 0; i < samples.count; ++i) {
+    for (int k = i + 1; k < samples.count; ++k) {
+      if (costs[i] > limit || costs[k] > limit) continue;
+      sum += samples.difference(i, k);
+      ++pairs;
+    }
+  }
+  return sum / pairs;
+}
+
+}  // namespace
+
+double ViewSamples::difference(int i, int k) const {
+  double sum = 0;
+  for (int level = 0; level < levels; ++level) sum += std::abs(luminance[level][i] - luminance[level][k]);
+  return sum / levels;
+}
+
+ViewSamples sample_views(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use) {
+  ViewSamples out;
+  const SweepOptions& options = problem.options;
+  out.levels = options.window_level_max - options.window_level_min + 1;
   for (int v = 0; v < static_cast<int>(problem.views.size()); ++v) {
     if (use && !(*use)[v]) continue;
-    const camera::Camera& camera = problem.views[v].camera;
-    const std::optional<Vec2d> pixel = camera.project(point);
-    if (!pixel || !camera.shows(*pixel)) continue;
+    const View& view = problem.views[v];
+    const std::optional<Vec2d> pixel = view.camera.project(point);
+    if (!pixel || !view.camera.shows(*pixel)) continue;
     out.view[out.count] = v;
     out.pixel[out.count] = *pixel;
+    for (int level = 0; level < out.levels; ++level)
+      out.luminance[level][out.count] =
+          view.image->sample_luminance(*pixel, sampling_level(view, options.window_level_min + level));
     ++out.count;
   }
-  if (out.count < 2) return out;
-
-  const SweepOptions& options = problem.options;
-  for (int level = options.window_level_min; level <= options.window_level_max; ++level) {
-    std::array<double, kMaxViews> luminance;
-    for (int k = 0; k < out.count; ++k) {
-      const View& view = problem.views[out.view[k]];
-      luminance[k] = view.image->sample_luminance(out.pixel[k], sampling_level(view, level));
-    }
-    for (int k = 0; k < out.count; ++k)
-      for (int i = 0; i < out.count; ++i) out.cost[k] += std::abs(luminance[i] - luminance[k]);
-  }
-  const double terms = (out.count - 1.0) * (options.window_level_max - options.window_level_min + 1);
-  for (int k = 0; k < out.count; ++k) out.cost[k] /= terms;
   return out;
 }
 
-double aggregate(const ViewCosts& costs, const SweepOptions& options) {
-  if (costs.count < options.min_views) return std::numeric_limits<double>::infinity();
-  std::array<double, kMaxViews> cost = costs.cost;
-  int used = costs.count;
-  if (options.aggregation == Aggregation::better_half) {
-    std::sort(cost.begin(), cost.begin() + used);
-    used = std::max(1, used / 2);
+std::array<double, kMaxViews> view_costs(const ViewSamples& samples) {
+  Costs costs{};
+  for (int i = 0; i < samples.count; ++i) {
+    for (int k = i + 1; k < samples.count; ++k) {
+      const double difference = samples.difference(i, k);
+      costs[i] += difference;
+      costs[k] += difference;
+    }
   }
-  double sum = 0;
-  for (int k = 0; k < used; ++k) sum += cost[k];
-  return sum / used;
+  for (int k = 0; k < samples.count && samples.count > 1; ++k) costs[k] /= samples.count - 1;
+  return costs;
+}
+
+double matching_cost(const ViewSamples& samples, const SweepOptions& options) {
+  const int n = samples.count;
+  if (n < options.min_views) return std::numeric_limits<double>::infinity();
+  const Costs costs = view_costs(samples);
+  const double penalty = options.few_views_penalty / n;
+  switch (options.aggregation) {
+    case Aggregation::all_views: return mean_of_lowest(costs, n, n) + penalty;
+    case Aggregation::better_half: return mean_of_lowest(costs, n, std::max(1, n / 2)) + penalty;
+    case Aggregation::consensus: return difference_within_consensus(samples, costs) + penalty;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace skysweep::sweep

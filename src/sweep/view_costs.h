@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The matching cost of a point in space in double precision: how much each view differs from the others there.
+// The matching cost of a point in space in double precision: how much the views that show it differ there.
 // The reference search and the choice of colour are built on it.
 #pragma once
 
@@ -9,19 +9,32 @@
 
 namespace skysweep::sweep {
 
-struct ViewCosts {
-  int count = 0;                         // views that show the point
-  std::array<int, kMaxViews> view{};     // their positions in problem.views, ascending
-  std::array<Vec2d, kMaxViews> pixel{};  // where they show it
-  std::array<double, kMaxViews> cost{};  // C_k: mean absolute luminance difference to the other views, grey levels
+constexpr int kMaxWindowLevels = 9;
+
+// What the views show at a point. Only the first `count` entries (and `levels` rows) are set.
+struct ViewSamples {
+  int count = 0;                                                          // views that show the point
+  int levels = 0;                                                         // window levels
+  std::array<int, kMaxViews> view;                                        // their positions in problem.views, ascending
+  std::array<Vec2d, kMaxViews> pixel;                                     // where they show it
+  std::array<std::array<double, kMaxViews>, kMaxWindowLevels> luminance;  // grey levels
+
+  // Mean absolute difference of two of the views over the window levels.
+  double difference(int i, int k) const;
 };
 
-// C_k = 1 / ((n - 1) L) sum over window levels and views i of |Y_i - Y_k| (METHODS section 4, divided by the number of
-// terms so that costs of different n compare). `use` says which views may take part; null means all. With fewer than
-// two views the costs are zero.
-ViewCosts view_costs(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use);
+// `use` says which views may take part; null means all.
+ViewSamples sample_views(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use);
 
-// The matching cost AC of the point: C_k aggregated over views; infinity with fewer than min_views.
-double aggregate(const ViewCosts& costs, const SweepOptions& options);
+// C_k = 1 / (n - 1) sum over the other views of their difference to view k (METHODS section 4, divided by the number of
+// terms so that costs of different n compare). Zero with fewer than two views.
+std::array<double, kMaxViews> view_costs(const ViewSamples& samples);
+
+// The matching cost AC of the point, as options.aggregation says, plus few_views_penalty / n; infinity with fewer than
+// min_views views.
+double matching_cost(const ViewSamples& samples, const SweepOptions& options);
+
+// How many of n views Aggregation::consensus takes.
+constexpr int consensus_size(int n) { return n < 3 ? 2 : (n + 1) / 2; }
 
 }  // namespace skysweep::sweep

@@ -97,9 +97,9 @@ int dump_tile(const SweepOptions& options) {
                   raster::vertical_reference(settings.crs_wkt));
   out.write("plane", converted<float>(matches.plane, [](int k) { return static_cast<float>(k); }), "best plane", "dz");
   out.write("cost", matches.cost, "matching cost of the best plane", "grey level");
-  out.write("cost_below", matches.cost_below, "matching cost one plane below", "grey level");
-  out.write("cost_above", matches.cost_above, "matching cost one plane above", "grey level");
   out.write("mean_cost", matches.mean_cost, "mean matching cost over all planes", "grey level");
+  out.write("fraction", matches.fraction, "vertex of the cost parabola above the best plane", "dz");
+  out.write("bend", matches.bend, "second difference of the cost at the best plane", "grey level");
   out.write("height", heights.height_m, "surface height", "metre", true);
   out.write("sigma", heights.sigma_m, "standard deviation of the height", "metre");
   out.write("color", result.color, "orthophoto", "");

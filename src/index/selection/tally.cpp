@@ -12,7 +12,7 @@ double Tally::gain(const TileView& view, Points points) const {
     const Sighting& sighting = view.at[i];
     const Point& point = points_[i];
     if (sighting.heights == 0) continue;
-    if (points == Points::in_need && point.heights >= options_.min_views * kHeights) continue;
+    if (points == Points::in_need && point.heights >= options_.views_per_place * kHeights) continue;
     sum += sighting.quality * sighting.heights * spread(point, sighting.ray) / (kHeights + point.heights);
   }
   return sum;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sweep/sweep_problem.h"
+#include "sweep/view_costs.h"
 
 namespace skysweep::sweep::cpu {
 
@@ -14,7 +15,6 @@ constexpr int kSegmentCells = 16;  // cells between two knots of the projection
 constexpr int kSegmentsPerBlock = kBlockCells / kSegmentCells;
 constexpr int kKnotsBefore = 2;                // knots to the left of the first segment
 constexpr int kKnots = kSegmentsPerBlock + 5;  // and three to the right of the last one's first
-constexpr int kMaxWindowLevels = 9;
 
 struct LevelKernel {
   const std::uint16_t* pixels = nullptr;  // LuminanceLevel::values
@@ -44,7 +44,6 @@ struct RowState {
   alignas(64) std::array<float, kBlockCells> previous;  // cost at the plane before
   alignas(64) std::array<float, kBlockCells> sum;
   alignas(64) std::array<float, kBlockCells> seen;
-  alignas(64) std::array<float, kBlockCells> views;
   alignas(64) std::array<std::int32_t, kBlockCells> plane;
 };
 

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "core/executor.h"
+#include "sweep/cost_volume.h"
 #include "sweep/match_result.h"
 #include "sweep/sweep_problem.h"
 
 namespace skysweep::sweep::reference {
 
-MatchResult match_planes(const SweepProblem& problem, Executor& executor);
+CostVolume match_costs(const SweepProblem& problem, Executor& executor);
+MatchResult match_cell_by_cell(const SweepProblem& problem, Executor& executor);
 
 }  // namespace skysweep::sweep::reference

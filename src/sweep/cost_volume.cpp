@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/cost_volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skysweep::sweep {
+
+CostVolume::CostVolume(const SweepProblem& problem, std::uint16_t value)
+    : width_(problem.grid.width),
+      height_(problem.grid.height),
+      all_planes_(problem.all_planes()),
+      block_planes_(problem.block_planes),
+      block_offset_(problem.block_planes.width(), problem.block_planes.height()) {
+  std::size_t size = 0;
+  for (int by = 0; by < block_planes_.height(); ++by) {
+    std::size_t in_row = 0;
+    for (int bx = 0; bx < block_planes_.width(); ++bx) {
+      block_offset_(bx, by) = in_row;
+      const int cells = std::min(kBlockCells, width_ - bx * kBlockCells);
+      in_row += static_cast<std::size_t>(cells) * padded_planes(block_planes_(bx, by));
+    }
+    for (int row = by * kBlockCells; row < std::min(height_, (by + 1) * kBlockCells); ++row) {
+      row_offset_.push_back(size);
+      size += in_row;
+    }
+  }
+  values_.assign(size, kBeyondRange);
+  for (int row = 0; row < height_; ++row)
+    for (int column = 0; column < width_; ++column)
+      std::fill_n(cell(column, row), planes_at(column, row).count(), value);
+}
+
+std::size_t CostVolume::offset(int column, int row) const {
+  const int bx = column / kBlockCells, by = row / kBlockCells;
+  const auto within = static_cast<std::size_t>(column - bx * kBlockCells);
+  return row_offset_[row] + block_offset_(bx, by) + within * padded_planes(block_planes_(bx, by));
+}
+
+std::size_t CostVolume::bytes_for(const SweepProblem& problem) {
+  std::size_t size = 0;
+  for (int by = 0; by < problem.block_planes.height(); ++by) {
+    for (int bx = 0; bx < problem.block_planes.width(); ++bx) {
+      const int width = std::min(kBlockCells, problem.grid.width - bx * kBlockCells);
+      const int height = std::min(kBlockCells, problem.grid.height - by * kBlockCells);
+      size += static_cast<std::size_t>(width) * height * padded_planes(problem.block_planes(bx, by));
+    }
+  }
+  return size * sizeof(std::uint16_t);
+}
+
+std::uint16_t quantized_cost(double grey_levels) {
+  if (!(grey_levels < kWorstCost / kCostScale)) return kWorstCost;
+  return static_cast<std::uint16_t>(std::nearbyint(grey_levels * kCostScale));
+}
+
+}  // namespace skysweep::sweep

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a view shows the cells of a row at one height.
+// Included once for every instruction set (Highway's per-target idiom, hence the guard that toggles).
+#if defined(SKYSWEEP_SWEEP_CPU_POSITIONS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKYSWEEP_SWEEP_CPU_POSITIONS_INL_H_
+#undef SKYSWEEP_SWEEP_CPU_POSITIONS_INL_H_
+#else
+#define SKYSWEEP_SWEEP_CPU_POSITIONS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "sweep/cpu/lanes-inl.h"
+#include "sweep/cpu/view_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skysweep::sweep::cpu::HWY_NAMESPACE {
+
+using D = hn::ScalableTag<double>;
+
+// Exact pixel positions of the knots of one row, plane and view; NaN where the camera cannot show the point.
+struct Knots {
+  // Room for a whole vector of the widest instruction set behind the last knot.
+  alignas(64) std::array<double, kKnots + 8> u, v;
+};
+
+HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double cell_m, double z, Knots& knots) {
+  const D d;
+  const Mat3d& r = view.cam_from_world;
+  const double dy = first_cell.y - view.center.y, dz = z - view.center.z;
+  const double dx0 = first_cell.x - kKnotsBefore * kSegmentCells * cell_m - view.center.x;
+  const auto coefficient = [&](double value) { return hn::Set(d, value); };
+  const auto one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
+  const auto nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
+  const camera::Distortion& lens = view.distortion;
+  for (int k = 0; k < kKnots; k += static_cast<int>(hn::Lanes(d))) {
+    const auto dx =
+        hn::MulAdd(hn::Iota(d, static_cast<double>(k)), coefficient(kSegmentCells * cell_m), coefficient(dx0));
+    const auto row = [&](int i) {
+      return hn::MulAdd(coefficient(r(i, 0)), dx, coefficient(r(i, 1) * dy + r(i, 2) * dz));
+    };
+    const auto depth = row(2);
+    const auto inverse = hn::Div(one, depth);
+    const auto x = hn::Mul(row(0), inverse), y = hn::Mul(row(1), inverse);
+    const auto r2 = hn::MulAdd(x, x, hn::Mul(y, y));
+    const auto radial = hn::MulAdd(
+        r2, hn::MulAdd(r2, hn::MulAdd(r2, coefficient(lens.k3), coefficient(lens.k2)), coefficient(lens.k1)), one);
+    const auto xy2 = hn::Mul(two, hn::Mul(x, y));
+    const auto tangential_x =
+        hn::MulAdd(coefficient(lens.p1), xy2, hn::Mul(coefficient(lens.p2), hn::MulAdd(two, hn::Mul(x, x), r2)));
+    const auto tangential_y =
+        hn::MulAdd(coefficient(lens.p2), xy2, hn::Mul(coefficient(lens.p1), hn::MulAdd(two, hn::Mul(y, y), r2)));
+    const auto distorted_x = hn::MulAdd(x, radial, tangential_x), distorted_y = hn::MulAdd(y, radial, tangential_y);
+    const auto usable = hn::And(hn::Gt(depth, hn::Zero(d)), hn::Lt(r2, coefficient(view.fold_radius_squared)));
+    const auto u = hn::MulAdd(distorted_x, coefficient(view.fx), coefficient(view.cx));
+    const auto v = hn::MulAdd(distorted_y, coefficient(view.fy), coefficient(view.cy));
+    hn::Store(hn::IfThenElse(usable, u, nan), d, knots.u.data() + k);
+    hn::Store(hn::IfThenElse(usable, v, nan), d, knots.v.data() + k);
+  }
+}
+
+// One pixel coordinate along a segment: base + c[0] + t (c[1] + t (... c[5])), t = 0..1 over kSegmentCells cells, the
+// polynomial through six knots, two before the segment's own two and two after. Subtracting the whole pixel `base`
+// before going to single precision keeps positions good to a few millionths of a pixel.
+struct Segment {
+  int base = 0;
+  std::array<float, 6> c;
+};
+
+// Rows: coefficients of t^j over 120; columns: knots at t = -2..3 (inverse of the Vandermonde matrix).
+constexpr double kQuintic[6][6] = {{0, 0, 120, 0, 0, 0},      {6, -60, -40, 120, -30, 4}, {-5, 80, -150, 80, -5, 0},
+                                   {-5, -5, 50, -70, 35, -5}, {5, -20, 30, -20, 5, 0},    {-1, 5, -10, 10, -5, 1}};
+
+HWY_INLINE Segment polynomial_through(const double* knot) {
+  const double base = std::floor(knot[2]);
+  Segment out{static_cast<int>(base), {static_cast<float>(knot[2] - base)}};
+  for (int j = 1; j < 6; ++j) {
+    double sum = 0;
+    for (int k = 0; k < 6; ++k) sum += kQuintic[j][k] * knot[k];
+    out.c[j] = static_cast<float>(sum / 120);
+  }
+  return out;
+}
+
+// Where one view shows the cells of a segment, relative to whole pixels; and which cells it shows at all.
+struct Positions {
+  alignas(64) std::array<float, kSegmentCells> u, v;
+  alignas(64) std::array<float, kSegmentCells> shown;  // 1 or 0
+  int base_u = 0, base_v = 0;
+};
+
+// The cells of a segment one by one, exactly: for segments that touch a place the camera cannot show.
+HWY_NOINLINE bool positions_one_by_one(const ViewKernel& view, Vec2d first_cell, double cell_m, double z,
+                                       Positions& out) {
+  bool any = false;
+  for (int i = 0; i < kSegmentCells; ++i) {
+    const auto pixel = view.camera->project({first_cell.x + i * cell_m, first_cell.y, z});
+    const bool shown = pixel && view.camera->shows(*pixel);
+    if (shown && !any) {
+      out.base_u = static_cast<int>(std::floor(pixel->x));
+      out.base_v = static_cast<int>(std::floor(pixel->y));
+      any = true;
+    }
+    out.shown[i] = shown ? 1.0f : 0.0f;
+    out.u[i] = shown ? static_cast<float>(pixel->x - out.base_u) : 0.0f;
+    out.v[i] = shown ? static_cast<float>(pixel->y - out.base_v) : 0.0f;
+  }
+  return any;
+}
+
+// Returns whether the view shows any of the cells; `all` becomes false if it does not show all of them.
+HWY_INLINE bool positions_of(const ViewKernel& view, const Knots& knots, int segment, Positions& out, bool& all) {
+  const F f;
+  const Segment u = polynomial_through(knots.u.data() + segment), v = polynomial_through(knots.v.data() + segment);
+  out.base_u = u.base;
+  out.base_v = v.base;
+  // 0 <= base + position <= size, in numbers small enough to be exact.
+  const VF u_min = hn::Set(f, static_cast<float>(-u.base)), u_max = hn::Set(f, view.width - static_cast<float>(u.base));
+  const VF v_min = hn::Set(f, static_cast<float>(-v.base)),
+           v_max = hn::Set(f, view.height - static_cast<float>(v.base));
+  bool any = false;
+  for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
+    const VF t = hn::Mul(hn::Iota(f, static_cast<float>(i)), hn::Set(f, 1.0f / kSegmentCells));
+    const auto evaluate = [&](const Segment& s) {
+      VF sum = hn::Set(f, s.c[5]);
+      for (int j = 4; j >= 0; --j) sum = hn::MulAdd(t, sum, hn::Set(f, s.c[j]));
+      return sum;
+    };
+    const VF pu = evaluate(u), pv = evaluate(v);
+    const auto shown =
+        hn::And(hn::And(hn::Ge(pu, u_min), hn::Le(pu, u_max)), hn::And(hn::Ge(pv, v_min), hn::Le(pv, v_max)));
+    hn::Store(pu, f, out.u.data() + i);
+    hn::Store(pv, f, out.v.data() + i);
+    hn::Store(hn::IfThenElseZero(shown, hn::Set(f, 1.0f)), f, out.shown.data() + i);
+    any = any || !hn::AllFalse(f, shown);
+    all = all && hn::AllTrue(f, shown);
+  }
+  return any;
+}
+
+}  // namespace skysweep::sweep::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SKYSWEEP_SWEEP_CPU_POSITIONS_INL_H_

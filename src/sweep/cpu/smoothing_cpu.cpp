@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled once for every instruction set by Highway's foreach_target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sweep/cpu/smoothing_cpu.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+#include "sweep/cpu/path_costs.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace skysweep::sweep::cpu::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using U16 = hn::CappedTag<std::uint16_t, kVolumeLanes>;
+
+// Path costs of one cell from those of the cell before, for all four directions of a pass, added to the sums.
+void continue_paths(const CellUpdate& cell) {
+  const U16 d;
+  const auto small = hn::Set(d, cell.small_penalty);
+  for (int direction = 0; direction < kPathsPerPass; ++direction) {
+    const std::uint16_t* HWY_RESTRICT before = cell.before[direction];
+    std::uint16_t* HWY_RESTRICT now = cell.now[direction];
+    const auto least = hn::Set(d, before ? cell.least_before[direction] : std::uint16_t{0});
+    const auto jump = hn::SaturatedAdd(least, hn::Set(d, cell.large_penalty));
+    auto running_least = hn::Set(d, kBeyondRange);
+    for (int k = 0; k < cell.padded_planes; k += static_cast<int>(hn::Lanes(d))) {
+      auto value = hn::LoadU(d, cell.costs + k);
+      if (before) {
+        const auto neighbour = hn::Min(hn::LoadU(d, before + k - 1), hn::LoadU(d, before + k + 1));
+        const auto best = hn::Min(hn::Min(hn::LoadU(d, before + k), hn::SaturatedAdd(neighbour, small)), jump);
+        value = hn::SaturatedAdd(value, hn::Sub(best, least));
+      }
+      hn::StoreU(value, d, now + k);
+      hn::StoreU(hn::SaturatedAdd(hn::LoadU(d, cell.sums + k), value), d, cell.sums + k);
+      running_least = hn::Min(running_least, value);
+    }
+    alignas(64) std::array<std::uint16_t, kVolumeLanes> lanes;
+    hn::Store(running_least, d, lanes.data());
+    cell.least_now[direction] = *std::min_element(lanes.begin(), lanes.begin() + hn::Lanes(d));
+  }
+}
+
+}  // namespace skysweep::sweep::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "sweep/cpu/smoothing_cpu.h"
+#include "sweep/penalties.h"
+
+namespace skysweep::sweep::cpu {
+
+HWY_EXPORT(continue_paths);
+
+namespace {
+
+// Step from a cell to the one before it on each path of the pass from the north; the pass from the south mirrors both.
+constexpr std::array<std::array<int, 2>, kPathsPerPass> kBefore = {{{-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
+
+void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, CostVolume& sums) {
+  const int width = costs.width(), height = costs.height();
+  PathRows rows(width, costs.all_planes());
+  const int sign = from_south ? -1 : 1;
+  for (int i = 0; i < height; ++i) {
+    const int row = from_south ? height - 1 - i : i;
+    rows.begin_row();
+    for (int j = 0; j < width; ++j) {
+      const int column = from_south ? width - 1 - j : j;
+      const PlaneRange planes = costs.planes_at(column, row);
+      CellUpdate cell;
+      cell.costs = costs.cell(column, row);
+      cell.sums = sums.cell(column, row);
+      cell.padded_planes = CostVolume::padded_planes(planes);
+      cell.small_penalty = static_cast<std::uint16_t>(penalties.small);
+      cell.large_penalty = static_cast<std::uint16_t>(penalties.large);
+      rows.forget_outside(column, planes);
+      for (int path = 0; path < kPathsPerPass; ++path) {
+        const int before_column = column + sign * kBefore[path][0], before_row = row + sign * kBefore[path][1];
+        const bool exists = before_column >= 0 && before_column < width && before_row >= 0 && before_row < height &&
+                            !costs.planes_at(before_column, before_row).empty();
+        const bool same_row = kBefore[path][1] == 0;
+        cell.before[path] = exists ? rows.values(path, before_column, same_row, planes.first) : nullptr;
+        cell.least_before[path] = exists ? rows.least(path, before_column, same_row) : std::uint16_t{0};
+        cell.now[path] = rows.values(path, column, true, planes.first);
+      }
+      if (planes.empty()) continue;
+      HWY_DYNAMIC_DISPATCH(continue_paths)(cell);
+      for (int path = 0; path < kPathsPerPass; ++path) rows.least(path, column, true) = cell.least_now[path];
+    }
+  }
+}
+
+}  // namespace
+
+CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
+  CostVolume sums(problem, 0);
+  const Penalties penalties = penalties_of(problem.options);
+  add_pass(costs, false, penalties, sums);
+  add_pass(costs, true, penalties, sums);
+  return sums;
+}
+
+}  // namespace skysweep::sweep::cpu
+#endif  // HWY_ONCE

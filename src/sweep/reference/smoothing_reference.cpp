@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/reference/smoothing_reference.h"
+
+#include <algorithm>
+
+#include "sweep/penalties.h"
+
+namespace skysweep::sweep::reference {
+namespace {
+
+// Path costs of one cell; planes outside the cell's range do not exist.
+struct PathCosts {
+  PlaneRange planes;
+  std::vector<int> values;
+
+  int at(int k) const { return k < planes.first || k > planes.last ? kBeyondRange : values[k - planes.first]; }
+  int least() const { return *std::min_element(values.begin(), values.end()); }
+};
+
+PathCosts continue_path(const CostVolume& costs, int column, int row, const PathCosts* before, Penalties penalties) {
+  PathCosts out{costs.planes_at(column, row), {}};
+  const std::uint16_t* cost = costs.cell(column, row);
+  for (int k = out.planes.first; k <= out.planes.last; ++k) {
+    int value = cost[k - out.planes.first];
+    if (before && !before->planes.empty()) {
+      const int step = std::min(before->at(k - 1), before->at(k + 1)) + penalties.small;
+      const int jump = before->least() + penalties.large;
+      value += std::min({before->at(k), step, jump}) - before->least();
+    }
+    out.values.push_back(value);
+  }
+  return out;
+}
+
+void add_path(const CostVolume& costs, int column, int row, int dx, int dy, Penalties penalties, CostVolume& sums) {
+  PathCosts before;
+  for (bool first = true; column >= 0 && column < costs.width() && row >= 0 && row < costs.height();
+       column += dx, row += dy, first = false) {
+    before = continue_path(costs, column, row, first ? nullptr : &before, penalties);
+    std::uint16_t* sum = sums.cell(column, row);
+    for (std::size_t i = 0; i < before.values.size(); ++i)
+      sum[i] = static_cast<std::uint16_t>(sum[i] + before.values[i]);
+  }
+}
+
+}  // namespace
+
+CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
+  CostVolume sums(problem, 0);
+  const Penalties penalties = penalties_of(problem.options);
+  const int right = costs.width() - 1, bottom = costs.height() - 1;
+  for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}) {
+    // Every cell whose predecessor lies outside the grid starts a path.
+    for (int row = 0; row <= bottom; ++row)
+      for (int column = 0; column <= right; ++column)
+        if (column - dx < 0 || column - dx > right || row - dy < 0 || row - dy > bottom)
+          add_path(costs, column, row, dx, dy, penalties, sums);
+  }
+  return sums;
+}
+
+}  // namespace skysweep::sweep::reference
