@@ -94,6 +94,7 @@ template <typename Visitor>
 void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("window_level_min", o.window_level_min);
   key("window_level_max", o.window_level_max);
+  key("normalization_radius_px", o.normalization_radius_px);
   key("aggregation", o.aggregation);
   key("smoothing", o.smoothing);
   key("small_step_penalty", o.small_step_penalty);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/error.h"
@@ -17,8 +18,11 @@ constexpr int kProbes = 12;          // photographs probed
 constexpr int kProbeNeighbours = 4;  // each against so many
 // Photographs nearer than this share of the typical distance between neighbours show no parallax.
 constexpr double kSamePlace = 0.2;
-// Surfaces may rise to a tenth of the flying height below the camera.
-constexpr double kNearestShare = 0.1;
+// Surfaces are looked for up to this share of the nearest depth that a probe found, and never nearer than that share of
+// the typical depth.
+constexpr double kNearestOfNearest = 0.5, kNearestOfMedian = 0.1;
+// Of the probes' farthest depths this quantile counts: single probes see ground that is not there.
+constexpr double kFarthestQuantile = 0.75;
 // Photographs serve what they show down to a little below the typical ground, or the lowest ground seen.
 constexpr double kReachOfMedian = 1.15, kReachOfFarthest = 1.1;
 // Views whose rays meet at more than this baseline-to-height ratio hardly ever serve the same place.
@@ -49,11 +53,13 @@ std::vector<const ImageRecord*> others_by_distance(const ImageRecord& from,
   return others;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double quantile(std::vector<double> values, double q) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
+
+double median(const std::vector<double>& values) { return quantile(values, 0.5); }
 
 double typical_neighbour_distance(const std::vector<const ImageRecord*>& used) {
   std::vector<double> distances;
@@ -101,11 +107,11 @@ std::optional<sweep::DepthProbe> probe(const ImageRecord& record, const std::vec
   return sweep::probe_depth(view_of(record, *images.front()), neighbours);
 }
 
-SearchRange around(double median_depth, double farthest_depth) {
+SearchRange around(double median_depth, double nearest_depth, double farthest_depth) {
   SearchRange search;
   search.ground_depth_m = median_depth;
   search.reach_depth_m = std::max(kReachOfMedian * median_depth, kReachOfFarthest * farthest_depth);
-  search.nearest_depth_m = kNearestShare * median_depth;
+  search.nearest_depth_m = std::max(kNearestOfMedian * median_depth, kNearestOfNearest * nearest_depth);
   search.farthest_depth_m = search.reach_depth_m;
   return search;
 }
@@ -123,7 +129,7 @@ SearchRange below_cameras(const std::vector<const ImageRecord*>& used, const swe
     throw bad_input(
         "All cameras are below the height range given by --z-range: heights and positions must be in the "
         "same vertical reference.");
-  SearchRange search = around(median(to_middle), farthest);
+  SearchRange search = around(median(to_middle), 0, farthest);
   search.heights = heights;
   return search;
 }
@@ -151,19 +157,19 @@ SearchRange estimate_search_range(const std::vector<ImageRecord>& records,
   std::vector<std::optional<sweep::DepthProbe>> probes(probed.size());
   executor.parallel_for(static_cast<int>(probed.size()),
                         [&](int i) { probes[i] = probe(*probed[i], used, typical_distance, photos); });
-  std::vector<double> medians;
-  double farthest = 0;
+  std::vector<double> medians, farthest;
+  double nearest = std::numeric_limits<double>::infinity();
   for (const auto& found : probes) {
     if (!found) continue;
     medians.push_back(found->median_m);
-    farthest = std::max(farthest, found->farthest_m);
+    farthest.push_back(found->farthest_m);
+    nearest = std::min(nearest, found->nearest_m);
   }
   if (medians.empty())
     throw bad_input(
         "The photographs' overlap could not be found: neighbouring photographs show no common ground at any "
         "height. Check that the poses belong to these photographs, or give --z-range LOW,HIGH.");
-  const double middle = median(medians);
-  return around(middle, farthest);
+  return around(quantile(medians, 0.5), nearest, quantile(farthest, kFarthestQuantile));
 }
 
 double default_cell(const std::vector<ImageRecord>& records, const SearchRange& search) {

@@ -19,7 +19,8 @@ namespace skysweep::pipeline {
 class PhotoCache {
  public:
   // `capacity_bytes` bounds what is kept for later; photographs in use count, too, but are never dropped.
-  PhotoCache(std::filesystem::path folder, std::size_t capacity_bytes);
+  // Photographs are prepared for sweeping with this normalisation (SweepOptions).
+  PhotoCache(std::filesystem::path folder, std::size_t capacity_bytes, int normalization_radius_px);
 
   // Throws what reading the photograph throws; a later call tries again.
   std::shared_ptr<const sweep::ImagePyramid> get(const std::string& name);
@@ -35,6 +36,7 @@ class PhotoCache {
 
   std::filesystem::path folder_;
   std::size_t capacity_bytes_;
+  int normalization_radius_px_;
   mutable std::mutex mutex_;
   std::condition_variable decoded_one_;
   std::map<std::string, Entry> entries_;

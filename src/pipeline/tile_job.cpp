@@ -67,7 +67,9 @@ PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const ImageRecor
   prepared.problem.views = geometry.views(prepared.selection, prepared.images, geometry.guessed_heights());
   if (prepared.problem.views.size() >= 2) {
     const sweep::HeightRange search = geometry.searched_heights();
-    prepared.heights = sweep::find_planes(prepared.problem, search.z_low, search.z_high, settings.backend, executor);
+    prepared.coarse_surface =
+        sweep::coarse_surface(prepared.problem, search.z_low, search.z_high, settings.backend, executor);
+    prepared.heights = sweep::search_near(prepared.coarse_surface, prepared.problem);
   }
   if (prepared.heights) {
     prepared.selection = geometry.select(*prepared.heights);

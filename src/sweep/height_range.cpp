@@ -4,12 +4,19 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "sweep/heights.h"
 
 namespace skysweep::sweep {
 namespace {
 
+constexpr double kMaxCostToMean = 0.6;  // of a coarse cell that stands out
+// Neighbouring coarse cells belong together when they differ by at most so many coarse planes, and to a surface when so
+// many belong together: false matches come in smaller patches.
+constexpr double kConnectedPlanes = 2;
+constexpr int kSmallestSurfaceCells = 24;
 // Around the range found, in coarse planes: what the coarse sweep may have missed by its own resolution.
 constexpr double kMarginCoarsePlanes = 2;
 // A block is searched where the coarse surface lies up to this many coarse cells outside it, too: surfaces near a step
@@ -27,24 +34,35 @@ SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_hig
   coarse.options = fine.options;
   coarse.options.window_level_min = 0;
   coarse.options.window_level_max = 2;
+  coarse.options.max_cost_to_mean = kMaxCostToMean;
   coarse.search_everywhere(planes_between(z_low, z_high, coarse.dz_m, 1));
   return coarse;
 }
 
-// Heights that most of their known neighbours confirm to within `agreement_m`; the others become NaN.
-Array2d<float> trusted(const Array2d<float>& height, double agreement_m) {
-  Array2d<float> out(height.width(), height.height(), std::nanf(""));
+// Heights that belong to a connected patch of at least kSmallestSurfaceCells cells; the others become NaN.
+Array2d<float> without_small_patches(const Array2d<float>& height, double agreement_m) {
+  Array2d<float> out(height.width(), height.height(), std::numeric_limits<float>::quiet_NaN());
+  Array2d<std::uint8_t> visited(height.width(), height.height(), 0);
+  struct Cell {
+    int x, y;
+  };
+  std::vector<Cell> patch;
   for (int y = 0; y < height.height(); ++y) {
     for (int x = 0; x < height.width(); ++x) {
-      int neighbours = 0, agreeing = 0;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          if ((dx == 0 && dy == 0) || !height.contains(x + dx, y + dy)) continue;
-          ++neighbours;
-          agreeing += std::abs(height(x + dx, y + dy) - height(x, y)) <= agreement_m;  // false for NaN
+      if (visited(x, y) || std::isnan(height(x, y))) continue;
+      patch.assign(1, {x, y});
+      visited(x, y) = 1;
+      for (std::size_t next = 0; next < patch.size(); ++next) {
+        const Cell at = patch[next];
+        for (const Cell n : {Cell{at.x - 1, at.y}, {at.x + 1, at.y}, {at.x, at.y - 1}, {at.x, at.y + 1}}) {
+          if (!height.contains(n.x, n.y) || visited(n.x, n.y)) continue;
+          if (!(std::abs(height(n.x, n.y) - height(at.x, at.y)) <= agreement_m)) continue;  // NaN never agrees
+          visited(n.x, n.y) = 1;
+          patch.push_back(n);
         }
       }
-      if (2 * agreeing >= neighbours && agreeing > 0) out(x, y) = height(x, y);
+      if (static_cast<int>(patch.size()) < kSmallestSurfaceCells) continue;
+      for (const Cell c : patch) out(c.x, c.y) = height(c.x, c.y);
     }
   }
   return out;
@@ -67,16 +85,19 @@ std::optional<HeightRange> range_within(const Array2d<float>& height, int x0, in
 
 }  // namespace
 
-std::optional<HeightRange> find_planes(SweepProblem& problem, double z_low, double z_high, Backend backend,
-                                       Executor& executor) {
+Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double z_high, Backend backend,
+                              Executor& executor) {
   const SweepProblem coarse = coarse_problem(problem, z_low, z_high);
   const Heights found = heights_from_matches(coarse, match_planes(coarse, backend, executor));
-  const Array2d<float> surface = trusted(found.height_m, 2 * coarse.dz_m);
+  return without_small_patches(found.height_m, kConnectedPlanes * coarse.dz_m);
+}
+
+std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProblem& problem) {
   const std::optional<HeightRange> whole = range_within(surface, 0, 0, surface.width(), surface.height());
   problem.search_everywhere({});
   if (!whole) return std::nullopt;
 
-  const double margin_m = kMarginCoarsePlanes * coarse.dz_m;
+  const double margin_m = kMarginCoarsePlanes * kCoarseCells * problem.dz_m;
   constexpr int kCoarsePerBlock = kBlockCells / kCoarseCells;
   for (int by = 0; by < problem.block_planes.height(); ++by) {
     for (int bx = 0; bx < problem.block_planes.width(); ++bx) {

@@ -13,17 +13,21 @@ namespace skysweep::sweep {
 
 constexpr int kCoarseCells = 8;
 
-// Lowest and highest surface found, metres.
+// Lowest and highest surface, metres.
 struct HeightRange {
   double z_low = 0;
   double z_high = 0;
 };
 
-// Searches z_low..z_high below `problem.grid` (whose block_planes are not read), then sets block_planes: for each block
-// the planes around the trusted heights of the block and its surroundings, the whole tile's where a block has none, and
-// none at all when the tile has none. A coarse height is trusted when at least half of its neighbours agree with it.
-// Returns the range over the whole tile; nothing when nothing could be matched.
-std::optional<HeightRange> find_planes(SweepProblem& problem, double z_low, double z_high, Backend backend,
-                                       Executor& executor);
+// The surface between z_low and z_high as a coarse sweep over `problem.grid` finds it (block_planes are not read), one
+// height per kCoarseCells x kCoarseCells cells from the north-west corner on. Only what can be trusted: heights whose cost
+// stands out and that belong to a connected surface of some size; all else is NaN.
+Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double z_high, Backend backend,
+                              Executor& executor);
+
+// Sets problem.block_planes: for each block the planes around the coarse heights of the block and its surroundings, the
+// whole tile's where a block has none, and none at all when the tile has none. Returns the range over the whole tile;
+// nothing when the surface is empty.
+std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProblem& problem);
 
 }  // namespace skysweep::sweep

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/image_pyramid.h"
 
+#include "sweep/local_normalization.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,9 +67,10 @@ double mix(double a, double b, double weight) { return a + weight * (b - a); }
 
 }  // namespace
 
-ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph) {
+ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px) {
   SKY_CHECK(!photograph.empty());
   Array2d<std::uint16_t> grey = luminance_of(photograph);
+  if (normalization_radius_px > 0) normalize_locally(grey, normalization_radius_px);
   color_.push_back(std::move(photograph));
   luminance_.push_back(with_border(grey));
   while (grey.width() > 1 || grey.height() > 1) {

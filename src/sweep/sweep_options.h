@@ -28,6 +28,10 @@ struct SweepOptions {
   int window_level_min = 0;
   int window_level_max = 3;
 
+  // Luminance is normalised to zero mean and unit deviation (20 grey levels) within so many pixels around each, so that
+  // photographs of different exposure and surfaces of different contrast compare; 0: as photographed, the classic cost.
+  int normalization_radius_px = 5;
+
   Aggregation aggregation = Aggregation::consensus;
 
   Smoothing smoothing = Smoothing::semi_global;

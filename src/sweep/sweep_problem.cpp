@@ -9,6 +9,8 @@ namespace skysweep::sweep {
 std::optional<std::string> SweepOptions::problem() const {
   if (window_level_min < 0 || window_level_max < window_level_min || window_level_max > 8)
     return "window levels must satisfy 0 <= window_level_min <= window_level_max <= 8";
+  if (normalization_radius_px < 0 || normalization_radius_px > 100)
+    return "normalization_radius_px must lie between 0 (off) and 100";
   if (!(small_step_penalty >= 0 && large_step_penalty >= small_step_penalty && large_step_penalty <= 60))
     return "penalties must satisfy 0 <= small_step_penalty <= large_step_penalty <= 60 grey levels";
   if (min_views < 2 || min_views > kMaxViews) return "min_views must lie between 2 and " + std::to_string(kMaxViews);

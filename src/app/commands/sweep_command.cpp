@@ -77,7 +77,7 @@ int dump_tile(const SweepOptions& options) {
   const std::vector<index::ImageRecord> images = index::Catalogue(paths.catalogue(), settings.crs_wkt).images();
   const pipeline::Coverage coverage(images, settings);
   pipeline::PhotoCache photos(options.images ? std::filesystem::path(*options.images) : settings.images,
-                              kPhotoCacheBytes);
+                              kPhotoCacheBytes, settings.configuration.sweep.normalization_radius_px);
   pipeline::TbbExecutor executor(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
 
   const pipeline::PreparedTile tile =
@@ -89,12 +89,20 @@ int dump_tile(const SweepOptions& options) {
   result.height_m = heights.height_m;
   sweep::colorize(problem, executor, result);
 
+  const auto write_coarse = [&](const raster::GeoReference& fine) {
+    raster::Raster<float> out{tile.coarse_surface, fine, {}};
+    out.georeference.cell_m *= sweep::kCoarseCells;
+    out.labels = {"surface of the coarse sweep", "metre", raster::vertical_reference(settings.crs_wkt),
+                  pipeline::software_name(), ""};
+    if (!tile.coarse_surface.empty()) raster::write_geotiff(std::filesystem::path(options.folder) / "coarse.tif", out);
+  };
   const Vec2d corner = settings.lattice.south_west_corner(*key);
-  StageWriter out(options.folder,
-                  {settings.crs_wkt,
-                   {corner.x + problem.grid.north_west_corner.x, corner.y + problem.grid.north_west_corner.y},
-                   problem.grid.cell_m},
-                  raster::vertical_reference(settings.crs_wkt));
+  const raster::GeoReference georeference{
+      settings.crs_wkt,
+      {corner.x + problem.grid.north_west_corner.x, corner.y + problem.grid.north_west_corner.y},
+      problem.grid.cell_m};
+  StageWriter out(options.folder, georeference, raster::vertical_reference(settings.crs_wkt));
+  write_coarse(georeference);
   out.write("plane", converted<float>(matches.plane, [](int k) { return static_cast<float>(k); }), "best plane", "dz");
   out.write("cost", matches.cost, "matching cost of the best plane", "grey level");
   out.write("mean_cost", matches.mean_cost, "mean matching cost over all planes", "grey level");
