@@ -32,7 +32,8 @@ constexpr double kLuminanceScale = 256;  // stored units per grey level
 
 class ImagePyramid {
  public:
-  // `normalization_radius_px`: see SweepOptions; 0 keeps the luminance as photographed.
+  // `normalization_radius_px`: see SweepOptions; each level is normalised by itself, in its own pixels. 0 keeps the
+  // luminance as photographed.
   explicit ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px = 0);
 
   int width() const { return color_[0].width(); }
