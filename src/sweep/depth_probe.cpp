@@ -16,7 +16,7 @@ constexpr double kStepPx = 0.5;  // parallax from one plane to the next, low-res
 constexpr double kNearestBaselines = 0.5, kFarthestBaselines = 60;  // depths searched, in baselines
 constexpr double kGoodCorrelation = 0.6;
 constexpr double kDistinct = 0.1;  // the best plane must beat all that are not next to it by this much
-constexpr int kFewestPixels = 30;
+constexpr double kFewestPixels = 0.04;  // share of the photograph that must find its depth
 constexpr int kAgreeing = 4;   // of the eight neighbours, so many must find nearly the same plane
 constexpr int kPeakWidth = 6;  // planes that count as the same peak
 
@@ -155,7 +155,7 @@ std::optional<DepthProbe> probe_depth(const View& reference, const std::vector<V
   for (int y = 0; y < planes.height(); ++y)
     for (int x = 0; x < planes.width(); ++x)
       if (confirmed(planes, x, y)) trusted.push_back(depths[planes(x, y)]);
-  if (static_cast<int>(trusted.size()) < kFewestPixels) return std::nullopt;
+  if (static_cast<double>(trusted.size()) < kFewestPixels * static_cast<double>(planes.size())) return std::nullopt;
   std::sort(trusted.begin(), trusted.end());
   const auto percentile = [&](double p) { return trusted[static_cast<std::size_t>(p * (trusted.size() - 1))]; };
   return DepthProbe{percentile(0.5), percentile(0.02), percentile(0.98), static_cast<int>(trusted.size())};

@@ -20,8 +20,8 @@ struct HeightRange {
 };
 
 // The surface between z_low and z_high as a coarse sweep over `problem.grid` finds it (block_planes are not read), one
-// height per kCoarseCells x kCoarseCells cells from the north-west corner on. Only what can be trusted: heights whose cost
-// stands out and that belong to a connected surface of some size; all else is NaN.
+// height per kCoarseCells x kCoarseCells cells from the north-west corner on. Only what can be trusted: heights whose
+// cost stands out and that belong to a connected surface of some size; all else is NaN.
 Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double z_high, Backend backend,
                               Executor& executor);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/image_pyramid.h"
 
-#include "sweep/local_normalization.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "sweep/local_normalization.h"
 
 namespace skysweep::sweep {
 namespace {

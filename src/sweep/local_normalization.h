@@ -9,8 +9,8 @@
 namespace skysweep::sweep {
 
 // Y' = 128 + 20 (Y - m) / sqrt(s^2 + 3^2), clamped to 0..255, with mean m and standard deviation s over the window of
-// (2 radius + 1)^2 pixels, cut off at the border; 3 grey levels keep noise on bare surfaces from becoming texture. In and
-// out in units of 1/kLuminanceScale grey level.
+// (2 radius + 1)^2 pixels, cut off at the border; 3 grey levels keep noise on bare surfaces from becoming texture. In
+// and out in units of 1/kLuminanceScale grey level.
 void normalize_locally(Array2d<std::uint16_t>& luminance, int radius_px);
 
 }  // namespace skysweep::sweep

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every backend, on every instruction set the machine has, must find what the scalar double-precision reference finds:
-// heights within 1e-3 of a plane step on 99.99 % of the cells, and a height where, and only where, the reference has one.
+// heights within 1e-3 of a plane step on 99.99 % of the cells, and a height where, and only where, the reference has
+// one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "core/executor.h"
 #include "sweep/backend.h"
 #include "sweep/heights.h"
+#include "sweep/smoothing.h"
 #include "sweep/synthetic_views.h"
 
 namespace skysweep::sweep {
@@ -24,7 +26,8 @@ struct ContractCase {
 double rolling(double x, double y) { return 0.8 * std::sin(x / 3) + 0.6 * std::cos(y / 4); }
 double flat(double, double) { return 0.37; }
 
-SyntheticProblem standard(int views, const test::Surface& surface, const camera::CameraModel& model = test::small_camera()) {
+SyntheticProblem standard(int views, const test::Surface& surface,
+                          const camera::CameraModel& model = test::small_camera()) {
   SyntheticProblem p = test::ring_of_views(views, model, surface);
   test::set_grid(p.problem, 80, 0.1, 0.12, -2, 2);
   return p;
@@ -44,6 +47,12 @@ std::vector<ContractCase> cases() {
        [] {
          SyntheticProblem p = test::ring_of_views(32, test::small_camera(200, 200, 160), flat);
          test::set_grid(p.problem, 70, 0.15, 0.2, -1.5, 1.5);
+         return p;
+       }},
+      {"better_half_aggregated",
+       [] {
+         SyntheticProblem p = standard(7, rolling);
+         p.problem.options.aggregation = Aggregation::better_half;
          return p;
        }},
       {"all_views_aggregated",
@@ -113,7 +122,8 @@ std::vector<ContractCase> cases() {
          for (int i = 0; i < 5; ++i) {
            const double yaw = 60 * i;
            const double s = std::sin(yaw * 0.0174532925199433), c = std::cos(yaw * 0.0174532925199433);
-           p.add_view(test::small_camera(), {camera::rotation_from_yaw_pitch_roll(yaw, -50, 3), {-25 * s, -25 * c, 30}}, flat);
+           p.add_view(test::small_camera(), {camera::rotation_from_yaw_pitch_roll(yaw, -50, 3), {-25 * s, -25 * c, 30}},
+                      flat);
          }
          test::set_grid(p.problem, 100, 0.12, 0.15, -2, 2);
          return p;
@@ -121,13 +131,13 @@ std::vector<ContractCase> cases() {
   };
 }
 
-// Cells whose cost differs by more than 2e-3 grey levels, or whose number of views differs.
+// Cells whose cost differs by more than 2e-3 grey levels.
 std::size_t cells_with_other_costs(const MatchResult& expected, const MatchResult& actual) {
   std::size_t bad = 0;
   for (std::size_t i = 0; i < expected.cost.size(); ++i) {
     const float e = expected.cost.data()[i], a = actual.cost.data()[i];
     if (std::isinf(e) && std::isinf(a)) continue;
-    if (!(std::abs(e - a) <= 2e-3f) || expected.view_count.data()[i] != actual.view_count.data()[i]) ++bad;
+    if (!(std::abs(e - a) <= 2e-3f)) ++bad;
   }
   return bad;
 }
@@ -146,8 +156,8 @@ TEST_P(MatchingContract, cpu_agrees_with_the_reference) {
   for (const ContractCase& c : cases()) {
     const SyntheticProblem p = c.make();
     p.problem.check();
-    const MatchResult expected = match_planes(p.problem, Backend::reference, serial);
-    const MatchResult actual = match_planes(p.problem, Backend::cpu, serial);
+    const MatchResult expected = match_cell_by_cell(p.problem, Backend::reference, serial);
+    const MatchResult actual = match_cell_by_cell(p.problem, Backend::cpu, serial);
     const Heights a = heights_from_matches(p.problem, expected), b = heights_from_matches(p.problem, actual);
     std::size_t different_here = 0;
     for (std::size_t i = 0; i < a.height_m.size(); ++i) {
@@ -170,6 +180,55 @@ TEST_P(MatchingContract, cpu_agrees_with_the_reference) {
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, MatchingContract, testing::ValuesIn(cpu_instruction_sets()),
                          [](const auto& instance) { return instance.param; });
+
+// With smoothing the bound has to hold for the whole chain: quantised costs, path sums, parabola.
+TEST_P(MatchingContract, smoothed_heights_agree_with_the_reference) {
+  use_cpu_instruction_set(GetParam());
+  SerialExecutor serial;
+  std::size_t with_height = 0, different = 0;
+  for (const ContractCase& c : cases()) {
+    if (c.name != "eight_views_of_rolling_ground" && c.name != "photographs_that_cover_a_part" &&
+        c.name != "blocks_with_planes_of_their_own")
+      continue;
+    const SyntheticProblem p = c.make();
+    const Heights a = heights_from_matches(p.problem, match_planes(p.problem, Backend::reference, serial));
+    const Heights b = heights_from_matches(p.problem, match_planes(p.problem, Backend::cpu, serial));
+    for (std::size_t i = 0; i < a.height_m.size(); ++i) {
+      const float ha = a.height_m.data()[i], hb = b.height_m.data()[i];
+      if (std::isnan(ha) && std::isnan(hb)) continue;
+      ++with_height;
+      if (!(std::abs(ha - hb) <= 1e-3 * p.problem.dz_m)) ++different;
+    }
+  }
+  EXPECT_GT(with_height, 10000u);
+  EXPECT_LE(different, with_height / 10000) << "of " << with_height;
+}
+
+// Whole numbers: the sums of the paths are the same bit for bit.
+TEST_P(MatchingContract, smoothing_is_exact) {
+  use_cpu_instruction_set(GetParam());
+  Random random(7);
+  SweepProblem problem;
+  problem.grid = {150, 90, 1, {0, 0}};
+  problem.search_everywhere({});
+  problem.block_planes = Array2d<PlaneRange>(3, 2);
+  problem.block_planes(0, 0) = {-7, 40};
+  problem.block_planes(1, 0) = {10, 11};
+  problem.block_planes(2, 0) = {-60, -20};  // no plane in common with its neighbour
+  problem.block_planes(0, 1) = {0, 31};
+  problem.block_planes(1, 1) = {};  // paths break off here
+  problem.block_planes(2, 1) = {-100, 60};
+  CostVolume costs(problem, 0);
+  for (int y = 0; y < problem.grid.height; ++y)
+    for (int x = 0; x < problem.grid.width; ++x)
+      for (int i = 0; i < costs.planes_at(x, y).count(); ++i)
+        costs.cell(x, y)[i] = random.below(9) == 0 ? kWorstCost : static_cast<std::uint16_t>(random.below(kWorstCost));
+  for (const double large : {0.0, 8.0, 60.0}) {
+    problem.options.small_step_penalty = large / 8;
+    problem.options.large_step_penalty = large;
+    EXPECT_TRUE(smooth(problem, costs, Backend::reference) == smooth(problem, costs, Backend::cpu)) << large;
+  }
+}
 
 TEST(Backends, unknown_instruction_set_is_refused) { EXPECT_THROW(use_cpu_instruction_set("AVX9"), Error); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photographs of surfaces given by a formula, rendered pixel by pixel through camera::Camera: truth for the sweep's tests
-// that shares no code with it.
+// Photographs of surfaces given by a formula, rendered pixel by pixel through camera::Camera: truth for the sweep's
+// tests that shares no code with it.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,8 @@ inline double value_noise(double x, double y, std::uint64_t seed) {
   const double fx = std::floor(x), fy = std::floor(y);
   const auto lattice = [&](double dx, double dy) {
     const auto ix = static_cast<std::int64_t>(fx + dx), iy = static_cast<std::int64_t>(fy + dy);
-    return static_cast<double>(mix64(mix64(seed + static_cast<std::uint64_t>(ix)) + static_cast<std::uint64_t>(iy)) >> 11) *
+    return static_cast<double>(mix64(mix64(seed + static_cast<std::uint64_t>(ix)) + static_cast<std::uint64_t>(iy)) >>
+                               11) *
            0x1.0p-53;
   };
   const auto ease = [](double t) { return t * t * (3 - 2 * t); };
@@ -96,9 +97,9 @@ inline SyntheticProblem ring_of_views(int count, const camera::CameraModel& mode
   Random random(seed);
   for (int i = 0; i < count; ++i) {
     const double angle = 6.283185307179586 * i / count;
-    const Vec3d center = camera::snap_position({radius_m * std::cos(angle) + random.uniform(-0.5, 0.5),
-                                                radius_m * std::sin(angle) + random.uniform(-0.5, 0.5),
-                                                30 + random.uniform(-1.0, 1.0)});
+    const Vec3d center =
+        camera::snap_position({radius_m * std::cos(angle) + random.uniform(-0.5, 0.5),
+                               radius_m * std::sin(angle) + random.uniform(-0.5, 0.5), 30 + random.uniform(-1.0, 1.0)});
     const Mat3d rotation = camera::rotation_from_yaw_pitch_roll(random.uniform(0, 360), -90 + random.uniform(-4, 4),
                                                                 random.uniform(-4, 4));
     out.add_view(model, {rotation, center}, surface);
