@@ -85,6 +85,15 @@ std::vector<const ImageRecord*> probed_records(const std::vector<const ImageReco
   return sorted;
 }
 
+// Null for a photograph that cannot be decoded: it is set aside, with its reason, when a tile needs it.
+std::shared_ptr<const sweep::ImagePyramid> image_or_null(const ImageRecord& record, PhotoCache& photos) {
+  try {
+    return photos.get(record.name);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
 std::optional<sweep::DepthProbe> probe(const ImageRecord& record, const std::vector<const ImageRecord*>& used,
                                        double typical_distance, PhotoCache& photos) {
   // Relative to the photograph itself: differences of snapped positions are exact wherever the scene lies.
@@ -93,16 +102,15 @@ std::optional<sweep::DepthProbe> probe(const ImageRecord& record, const std::vec
   };
   std::vector<std::shared_ptr<const sweep::ImagePyramid>> images;
   std::vector<sweep::View> neighbours;
-  try {
-    images.push_back(photos.get(record.name));
-    for (const ImageRecord* other : others_by_distance(record, used)) {
-      if (static_cast<int>(neighbours.size()) == kProbeNeighbours) break;
-      if (distance_on_ground(record, *other) < kSamePlace * typical_distance) continue;
-      images.push_back(photos.get(other->name));
-      neighbours.push_back(view_of(*other, *images.back()));
-    }
-  } catch (const Error&) {
-    return std::nullopt;  // a photograph that cannot be decoded is set aside, with its reason, when a tile needs it
+  images.push_back(image_or_null(record, photos));
+  if (!images.front()) return std::nullopt;
+  for (const ImageRecord* other : others_by_distance(record, used)) {
+    if (static_cast<int>(neighbours.size()) == kProbeNeighbours) break;
+    if (distance_on_ground(record, *other) < kSamePlace * typical_distance) continue;
+    auto image = image_or_null(*other, photos);
+    if (!image) continue;
+    neighbours.push_back(view_of(*other, *image));
+    images.push_back(std::move(image));
   }
   return sweep::probe_depth(view_of(record, *images.front()), neighbours);
 }

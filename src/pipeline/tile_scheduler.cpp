@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 
+#include "core/error.h"
 #include "pipeline/coverage.h"
 #include "pipeline/tile_job.h"
 #include "tiles/pyramid.h"
@@ -152,10 +153,30 @@ void refuse(std::vector<index::ImageRecord>& images, const std::map<std::string,
   }
 }
 
+// A photograph that could not be decoded last time is tried first, not when half the map has been computed with it.
+void retry_refused_ones(MapUpdate& update, Progress& progress) {
+  std::map<std::string, std::string> refused_content;
+  for (const index::ImageRecord& image : update.catalogue.images())
+    if (image.status == index::ImageStatus::refused) refused_content[image.name] = image.content_digest;
+  std::map<std::string, std::string> failed;
+  for (const index::ImageRecord& image : update.images) {
+    const auto found = refused_content.find(image.name);
+    if (image.status != index::ImageStatus::used || found == refused_content.end()) continue;
+    if (found->second != image.content_digest) continue;
+    try {
+      update.photos.get(image.name);
+    } catch (const Error& error) {
+      failed[image.name] = error.what();
+    }
+  }
+  refuse(update.images, failed, progress);
+}
+
 }  // namespace
 
 void update_map(MapUpdate& update, RunSummary& summary, TbbExecutor& executor, Progress& progress,
                 const std::atomic<bool>& stop) {
+  retry_refused_ones(update, progress);
   std::vector<tiles::TileKey> changed = tiles::find_outdated(update.store);
   int kept_before = -1;
   for (;;) {
