@@ -44,7 +44,7 @@ evaluate() {
 step "Packages" scripts/setup.sh
 step "Build" scripts/build.sh release skysweep
 step "Simulated flight" simulate
-step "Reconstruction" "$skysweep" run demo/flight/images --poses demo/flight/poses.csv -o demo/map
+step "Reconstruction" "$skysweep" run demo/flight/images --poses demo/flight/poses.csv -o demo/map --cell 0.1
 step "Accuracy" evaluate
 
 cat <<END

@@ -32,7 +32,8 @@ Box2d intersection(const Box2d& a, const Box2d& b) {
 
 // Every n-th cell: for a picture that says what the surface looks like.
 raster::Raster<float> thinned(const raster::Raster<float>& dsm) {
-  const int step = std::max(1, std::max(dsm.values.width(), dsm.values.height()) / kPreviewPixels);
+  const int longer = std::max(dsm.values.width(), dsm.values.height());
+  const int step = std::max(1, (longer + kPreviewPixels - 1) / kPreviewPixels);
   raster::Raster<float> out{
       Array2d<float>(dsm.values.width() / step, dsm.values.height() / step), dsm.georeference, {}};
   out.georeference.cell_m *= step;

@@ -4,7 +4,7 @@
 namespace skysweep::formats {
 
 void add_origin(PoseSet& poses, Vec3d origin) {
-  for (PosedImage& image : poses.images) image.pose.center = camera::snap_position(image.pose.center + origin);
+  for (PosedImage& image : poses.images) image.pose.center = image.pose.center + origin;
 }
 
 }  // namespace skysweep::formats

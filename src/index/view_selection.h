@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which photographs serve a tile best: those that together show every part of it N times, from near nadir, at fine ground
-// sampling distance, and from different sides.
+// Which photographs serve a tile best: those that together show every part of it N times, from near nadir, at fine
+// ground sampling distance, and from different sides.
 #pragma once
 
 #include <optional>

@@ -43,8 +43,7 @@ class Reader {
     if (!text) return;
     const auto& words = kWords<Enum>;
     const auto found = std::find(words.begin(), words.end(), *text);
-    if (found == words.end())
-      throw usage_error(table_.where(key) + " must be one of " + listed(words) + ".");
+    if (found == words.end()) throw usage_error(table_.where(key) + " must be one of " + listed(words) + ".");
     member = static_cast<Enum>(found - words.begin());
   }
 
@@ -99,6 +98,7 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("smoothing", o.smoothing);
   key("small_step_penalty", o.small_step_penalty);
   key("large_step_penalty", o.large_step_penalty);
+  key("volume_limit_mib", o.volume_limit_mib);
   key("min_views", o.min_views);
   key("few_views_penalty", o.few_views_penalty);
   key("max_cost", o.max_cost);

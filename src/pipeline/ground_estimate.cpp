@@ -36,8 +36,10 @@ std::vector<const ImageRecord*> used_records(const std::vector<ImageRecord>& rec
   return used;
 }
 
+// Snapped, so that it is the same wherever the scene lies.
 double distance_on_ground(const ImageRecord& a, const ImageRecord& b) {
-  return norm(Vec2d{a.pose.center.x - b.pose.center.x, a.pose.center.y - b.pose.center.y});
+  const Vec3d apart = camera::snap_position(a.pose.center - b.pose.center);
+  return norm(Vec2d{apart.x, apart.y});
 }
 
 // The others by distance, nearest first; equal distances by name, so that the order of arrival does not matter.

@@ -41,11 +41,14 @@ MemoryPlan plan_memory(std::size_t limit_bytes, const std::vector<index::ImageRe
   plan.limit_bytes = limit_bytes;
   plan.program_bytes = kProgramBytes + records.size() * kBytesPerImageRecord;
   const auto width = static_cast<std::size_t>(configuration.tiles.cells + 2 * configuration.tiles.collar_cells);
-  plan.tile_bytes = width * width * kBytesPerCell;
+  // Costs and their sums; without smoothing no volume is kept.
+  const std::size_t volumes = configuration.sweep.smoothing == sweep::Smoothing::none
+                                  ? 0
+                                  : 2 * (static_cast<std::size_t>(configuration.sweep.volume_limit_mib) << 20);
+  plan.tile_bytes = width * width * kBytesPerCell + volumes;
 
   const auto decoding = static_cast<std::size_t>(threads * kDecodingOverhead * static_cast<double>(largest_photo));
-  // A tile holds the photographs of its guess and of its final choice.
-  const std::size_t photos_of_a_tile = 2 * static_cast<std::size_t>(configuration.views.max_views) * largest_photo;
+  const std::size_t photos_of_a_tile = static_cast<std::size_t>(configuration.views.max_views) * largest_photo;
   const auto needed = [&](int tiles) {
     const std::size_t photos = std::min(all_photos, static_cast<std::size_t>(tiles) * photos_of_a_tile);
     return plan.program_bytes + decoding + static_cast<std::size_t>(tiles) * plan.tile_bytes + photos;
@@ -53,12 +56,13 @@ MemoryPlan plan_memory(std::size_t limit_bytes, const std::vector<index::ImageRe
   plan.tiles_in_flight = std::clamp(threads, 1, kMostTilesInFlight);
   while (plan.tiles_in_flight > 1 && needed(plan.tiles_in_flight) > limit_bytes) --plan.tiles_in_flight;
   if (needed(1) > limit_bytes)
-    throw Error(ErrorKind::memory_plan, "--memory allows " + std::to_string(limit_bytes / kMiB) +
-                                            " MiB, but one tile of " + std::to_string(configuration.tiles.cells) +
-                                            " x " + std::to_string(configuration.tiles.cells) + " cells with up to " +
-                                            std::to_string(configuration.views.max_views) + " photographs needs " +
-                                            std::to_string(needed(1) / kMiB + 1) +
-                                            " MiB: allow that much, or set [tiles] cells or [views] max_views lower.");
+    throw Error(
+        ErrorKind::memory_plan,
+        "--memory allows " + std::to_string(limit_bytes / kMiB) + " MiB, but one tile of " +
+            std::to_string(configuration.tiles.cells) + " x " + std::to_string(configuration.tiles.cells) +
+            " cells with up to " + std::to_string(configuration.views.max_views) + " photographs needs " +
+            std::to_string(needed(1) / kMiB + 1) +
+            " MiB: allow that much, or set [sweep] volume_limit_mib, [tiles] cells or [views] max_views lower.");
   const auto tiles = static_cast<std::size_t>(plan.tiles_in_flight);
   plan.photo_cache_bytes = std::min(all_photos, limit_bytes - plan.program_bytes - decoding - tiles * plan.tile_bytes);
   return plan;

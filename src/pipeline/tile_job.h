@@ -33,7 +33,7 @@ struct PreparedTile {
   index::ViewSelection selection;
   std::vector<std::string> view_names;  // of problem.views
   std::vector<std::shared_ptr<const sweep::ImagePyramid>> images;
-  sweep::SweepProblem problem;  // of the tile and its collar; empty planes when nothing can be matched
+  sweep::SweepProblem problem;    // of the tile and its collar; empty planes when nothing can be matched
   Array2d<float> coarse_surface;  // what the planes were chosen by (sweep/height_range.h); may be empty
   std::optional<sweep::HeightRange> heights;
 };

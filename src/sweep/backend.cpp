@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/backend.h"
 
+#include "sweep/bands.h"
 #include "sweep/best_planes.h"
 #include "sweep/cpu/match_cpu.h"
 #include "sweep/reference/match_reference.h"
@@ -18,8 +19,13 @@ const char* to_string(Backend backend) {
 
 MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor& executor) {
   if (problem.options.smoothing == Smoothing::none) return match_cell_by_cell(problem, backend, executor);
-  const CostVolume costs = match_costs(problem, backend, executor);
-  return best_planes(costs, smooth(problem, costs, backend));
+  MatchResult result(problem.grid.width, problem.grid.height);
+  for (const Band& band : bands_within(problem)) {
+    const SweepProblem part = part_of(problem, band);
+    const CostVolume costs = match_costs(part, backend, executor);
+    copy_core(best_planes(costs, smooth(part, costs, backend)), band, result);
+  }
+  return result;
 }
 
 CostVolume match_costs(const SweepProblem& problem, Backend backend, Executor& executor) {

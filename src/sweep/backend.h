@@ -27,6 +27,10 @@ MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor&
 CostVolume match_costs(const SweepProblem& problem, Backend backend, Executor& executor);
 MatchResult match_cell_by_cell(const SweepProblem& problem, Backend backend, Executor& executor);
 
+// The machine's ceiling for benches: takes `samples` bilinear samples along lines through the finest level of `image`
+// with the cpu backend's own instructions and nothing else, and returns their sum in stored units.
+double bilinear_sampling_ceiling(const ImagePyramid& image, long long samples);
+
 // Instruction sets of the cpu backend that this machine has, best first; and the one in use.
 std::vector<std::string> cpu_instruction_sets();
 std::string cpu_instruction_set_in_use();

@@ -15,10 +15,11 @@ constexpr int kMaxPlanes = 512;
 constexpr double kStepPx = 0.5;  // parallax from one plane to the next, low-resolution pixels
 constexpr double kNearestBaselines = 0.5, kFarthestBaselines = 60;  // depths searched, in baselines
 constexpr double kGoodCorrelation = 0.6;
-constexpr double kDistinct = 0.1;  // the best plane must beat all that are not next to it by this much
-constexpr double kFewestPixels = 0.04;  // share of the photograph that must find its depth
-constexpr int kAgreeing = 4;   // of the eight neighbours, so many must find nearly the same plane
-constexpr int kPeakWidth = 6;  // planes that count as the same peak
+constexpr double kDistinct = 0.1;       // the best plane must beat all that are not next to it by this much
+constexpr double kFewestPixels = 0.08;  // share of the photograph that must find its depth
+constexpr int kAgreeing = 4;            // of the eight neighbours, so many must find nearly the same plane
+constexpr int kPeakWidth = 6;           // planes that count as the same peak
+constexpr int kAgreement = 3;           // planes by which neighbours may differ
 
 struct LowResolution {
   int level = 0;
@@ -119,7 +120,7 @@ bool confirmed(const Array2d<int>& planes, int x, int y) {
   int agreeing = -1;  // the pixel itself
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
-      agreeing += planes.contains(x + dx, y + dy) && std::abs(planes(x + dx, y + dy) - planes(x, y)) <= kPeakWidth;
+      agreeing += planes.contains(x + dx, y + dy) && std::abs(planes(x + dx, y + dy) - planes(x, y)) <= kAgreement;
   return agreeing >= kAgreeing;
 }
 
@@ -157,6 +158,11 @@ std::optional<DepthProbe> probe_depth(const View& reference, const std::vector<V
       if (confirmed(planes, x, y)) trusted.push_back(depths[planes(x, y)]);
   if (static_cast<double>(trusted.size()) < kFewestPixels * static_cast<double>(planes.size())) return std::nullopt;
   std::sort(trusted.begin(), trusted.end());
+  const double middle = trusted[trusted.size() / 2];
+  const auto near = std::count_if(trusted.begin(), trusted.end(), [&](double depth) {
+    return std::abs(middle / depth - 1) <= kNearMedian;  // parallax is proportional to 1 / depth
+  });
+  if (static_cast<double>(near) < kFewestNearMedian * static_cast<double>(trusted.size())) return std::nullopt;
   const auto percentile = [&](double p) { return trusted[static_cast<std::size_t>(p * (trusted.size() - 1))]; };
   return DepthProbe{percentile(0.5), percentile(0.02), percentile(0.98), static_cast<int>(trusted.size())};
 }

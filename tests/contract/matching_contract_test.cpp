@@ -142,6 +142,15 @@ std::size_t cells_with_other_costs(const MatchResult& expected, const MatchResul
   return bad;
 }
 
+int largest_difference(const CostVolume& a, const CostVolume& b) {
+  int largest = 0;
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x)
+      for (int i = 0; i < a.planes_at(x, y).count(); ++i)
+        largest = std::max(largest, std::abs(a.cell(x, y)[i] - b.cell(x, y)[i]));
+  return largest;
+}
+
 class MatchingContract : public testing::TestWithParam<std::string> {
  protected:
   void TearDown() override { use_cpu_instruction_set(best_); }
@@ -181,7 +190,8 @@ TEST_P(MatchingContract, cpu_agrees_with_the_reference) {
 INSTANTIATE_TEST_SUITE_P(InstructionSets, MatchingContract, testing::ValuesIn(cpu_instruction_sets()),
                          [](const auto& instance) { return instance.param; });
 
-// With smoothing the bound has to hold for the whole chain: quantised costs, path sums, parabola.
+// With smoothing the stages are bounded one by one: costs to one unit, sums exactly. Over the whole chain a unit (1/64
+// grey level) moves the parabola by up to a hundredth of a plane.
 TEST_P(MatchingContract, smoothed_heights_agree_with_the_reference) {
   use_cpu_instruction_set(GetParam());
   SerialExecutor serial;
@@ -191,13 +201,15 @@ TEST_P(MatchingContract, smoothed_heights_agree_with_the_reference) {
         c.name != "blocks_with_planes_of_their_own")
       continue;
     const SyntheticProblem p = c.make();
+    const CostVolume expected = match_costs(p.problem, Backend::reference, serial);
+    EXPECT_LE(largest_difference(expected, match_costs(p.problem, Backend::cpu, serial)), 1) << c.name;
     const Heights a = heights_from_matches(p.problem, match_planes(p.problem, Backend::reference, serial));
     const Heights b = heights_from_matches(p.problem, match_planes(p.problem, Backend::cpu, serial));
     for (std::size_t i = 0; i < a.height_m.size(); ++i) {
       const float ha = a.height_m.data()[i], hb = b.height_m.data()[i];
       if (std::isnan(ha) && std::isnan(hb)) continue;
       ++with_height;
-      if (!(std::abs(ha - hb) <= 1e-3 * p.problem.dz_m)) ++different;
+      if (!(std::abs(ha - hb) <= 1e-2 * p.problem.dz_m)) ++different;
     }
   }
   EXPECT_GT(with_height, 10000u);

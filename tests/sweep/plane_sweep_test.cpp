@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sweep/bands.h"
 #include "sweep/heights.h"
 #include "sweep/synthetic_views.h"
 
@@ -99,6 +100,20 @@ TEST(PlaneSweep, planar_fallback_colours_cells_without_height_only_when_asked) {
   EXPECT_EQ(result.planar(80, 5), 1);
   EXPECT_TRUE(std::isnan(result.height_m(80, 5)));
   EXPECT_EQ(result.planar(20, 20), 0);
+}
+
+TEST(PlaneSweep, in_bands_finds_nearly_the_same_heights_within_the_memory_it_is_given) {
+  test::SyntheticProblem p = test::ring_of_views(5, test::small_camera(), rolling);
+  test::set_grid(p.problem, 256, 0.08, 0.1, -2.5, 2.5);
+  SerialExecutor serial;
+  const Heights whole = heights_from_matches(p.problem, match_planes(p.problem, Backend::cpu, serial));
+  p.problem.options.volume_limit_mib = 7;  // of 8
+  EXPECT_EQ(bands_within(p.problem).size(), 2u);
+  const Heights bands = heights_from_matches(p.problem, match_planes(p.problem, Backend::cpu, serial));
+  int different = 0;
+  for (std::size_t i = 0; i < whole.height_m.size(); ++i)
+    different += std::abs(whole.height_m.data()[i] - bands.height_m.data()[i]) > 0.5 * p.problem.dz_m;
+  EXPECT_LE(different, 256 * 256 / 200);
 }
 
 // Every option changes the result: none is dead.

@@ -129,6 +129,34 @@ void fill_row(const RowJob& job, std::uint16_t* cell, int stride) {
   });
 }
 
+// Segment after segment along the rows of one level, a fraction of a pixel apart from the grid.
+double sample_everywhere(const ImagePyramid& image, long long samples) {
+  const F f;
+  const LuminanceLevel& luminance = image.luminance(0);
+  const LevelKernel level{luminance.values.data(), luminance.stride, luminance.width, luminance.height, 1};
+  Positions positions;
+  for (int i = 0; i < kSegmentCells; ++i) {
+    positions.u[i] = 0.9f * static_cast<float>(i) + 0.7f;
+    positions.v[i] = 0.1f * static_cast<float>(i) + 0.6f;
+  }
+  alignas(64) std::array<float, kSegmentCells> out;
+  VF sum = hn::Zero(f);
+  for (long long done = 0; done < samples;) {
+    for (positions.base_v = 0; positions.base_v + 2 < level.height; ++positions.base_v) {
+      for (positions.base_u = 0; positions.base_u + kSegmentCells < level.width; positions.base_u += kSegmentCells) {
+        sample_segment(level, positions, out.data());
+        for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) sum = hn::Add(sum, hn::Load(f, out.data() + i));
+        done += kSegmentCells;
+      }
+    }
+  }
+  alignas(64) std::array<float, kSegmentCells> lanes;
+  hn::Store(sum, f, lanes.data());
+  double total = 0;
+  for (std::size_t i = 0; i < hn::Lanes(f); ++i) total += lanes[i];
+  return total;
+}
+
 }  // namespace skysweep::sweep::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -140,6 +168,7 @@ namespace skysweep::sweep::cpu {
 
 HWY_EXPORT(match_row);
 HWY_EXPORT(fill_row);
+HWY_EXPORT(sample_everywhere);
 
 namespace {
 
@@ -195,6 +224,10 @@ CostVolume match_costs(const SweepProblem& problem, Executor& executor) {
   return costs;
 }
 
+double sample_everywhere_dispatched(const ImagePyramid& image, long long samples) {
+  return HWY_DYNAMIC_DISPATCH(sample_everywhere)(image, samples);
+}
+
 MatchResult match_cell_by_cell(const SweepProblem& problem, Executor& executor) {
   MatchResult result(problem.grid.width, problem.grid.height);
   for_each_row_of_a_block(problem, executor, [&](const RowJob& job, int column, int row) {
@@ -208,6 +241,8 @@ MatchResult match_cell_by_cell(const SweepProblem& problem, Executor& executor) 
 }  // namespace skysweep::sweep::cpu
 
 namespace skysweep::sweep {
+
+double bilinear_sampling_ceiling(const ImagePyramid& image, long long samples) { return cpu::sample_everywhere_dispatched(image, samples); }
 
 std::vector<std::string> cpu_instruction_sets() {
   std::vector<std::string> names;
