@@ -59,10 +59,11 @@ TEST_F(ReadPoses, what_is_no_pose_file_is_refused_with_what_would_be_accepted) {
   EXPECT_SENTENCE(refusal(std::string(5000, 'a')), "cannot be opened (File name too long)");
 }
 
-TEST_F(ReadPoses, origin_is_added_and_positions_stay_snapped) {
+TEST_F(ReadPoses, origin_is_added_so_that_snapped_differences_to_it_are_the_positions_read) {
   PoseSet poses = read_poses(write("poses.csv", kCsv));
-  add_origin(poses, {576700.1, 5188170, -0.3});
-  EXPECT_EQ(poses.images[0].pose.center, camera::snap_position({576701.1, 5188172, 2.7}));
+  const Vec3d origin{576700.1, 5188170, -0.3};
+  add_origin(poses, origin);
+  EXPECT_EQ(camera::snap_position(poses.images[0].pose.center - origin), (Vec3d{1, 2, 3}));
 }
 
 }  // namespace
