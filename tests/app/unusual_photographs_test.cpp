@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photographs that are out of the ordinary, and used.
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "app/simulated_flight.h"
 
@@ -40,8 +39,7 @@ TEST_F(UnusualPhotograph, sixteen_bit_tiff_gives_the_heights_of_its_eight_bits) 
 }
 
 TEST_F(UnusualPhotograph, grey_photograph) {
-  cv::Mat grey;
-  cv::cvtColor(pixels_of("0002.jpg"), grey, cv::COLOR_BGR2GRAY);
+  const cv::Mat grey = cv::imread(photo("0002.jpg"), cv::IMREAD_GRAYSCALE);
   ASSERT_TRUE(cv::imwrite(photo("0002.jpg"), grey));
   expect_all_used();
 }
