@@ -4,7 +4,7 @@
 
 find_path(OpenCVModules_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 set(OpenCVModules_LIBRARIES_FOUND TRUE)
-foreach(module core imgproc imgcodecs calib3d)
+foreach(module core imgcodecs calib3d)
   find_library(OpenCVModules_${module}_LIBRARY opencv_${module})
   if(NOT OpenCVModules_${module}_LIBRARY)
     set(OpenCVModules_LIBRARIES_FOUND FALSE)

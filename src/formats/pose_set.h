@@ -32,8 +32,9 @@ struct PoseSet {
 // it is, is told by looking. Throws Error(bad_input), naming file and line, if nothing in it can be trusted.
 PoseSet read_poses(const std::string& path);
 
-// Adds `origin` to every position: model coordinates -> map coordinates. Not snapped again: whoever takes the difference
-// to a place nearby and snaps that (camera::Camera::relative_to) gets the same bits wherever the origin lies.
+// Adds `origin` to every position: model coordinates -> map coordinates. Not snapped again: whoever takes the
+// difference to a place nearby and snaps that (camera::Camera::relative_to) gets the same bits wherever the origin
+// lies.
 void add_origin(PoseSet& poses, Vec3d origin);
 
 }  // namespace skysweep::formats

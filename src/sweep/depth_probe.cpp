@@ -19,7 +19,7 @@ constexpr double kDistinct = 0.1;       // the best plane must beat all that are
 constexpr double kFewestPixels = 0.08;  // share of the photograph that must find its depth
 constexpr int kAgreeing = 4;            // of the eight neighbours, so many must find nearly the same plane
 constexpr int kPeakWidth = 6;           // planes that count as the same peak
-constexpr int kAgreement = 3;  // planes by which neighbours may differ
+constexpr int kAgreement = 3;           // planes by which neighbours may differ
 // False matches scatter over all parallaxes, a surface does not: so much of what is trusted must lie near the median.
 constexpr double kNearMedian = 0.3, kFewestNearMedian = 0.6;
 

@@ -145,7 +145,8 @@ double sample_everywhere(const ImagePyramid& image, long long samples) {
     for (positions.base_v = 0; positions.base_v + 2 < level.height; ++positions.base_v) {
       for (positions.base_u = 0; positions.base_u + kSegmentCells < level.width; positions.base_u += kSegmentCells) {
         sample_segment(level, positions, out.data());
-        for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) sum = hn::Add(sum, hn::Load(f, out.data() + i));
+        for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f)))
+          sum = hn::Add(sum, hn::Load(f, out.data() + i));
         done += kSegmentCells;
       }
     }
@@ -242,7 +243,9 @@ MatchResult match_cell_by_cell(const SweepProblem& problem, Executor& executor) 
 
 namespace skysweep::sweep {
 
-double bilinear_sampling_ceiling(const ImagePyramid& image, long long samples) { return cpu::sample_everywhere_dispatched(image, samples); }
+double bilinear_sampling_ceiling(const ImagePyramid& image, long long samples) {
+  return cpu::sample_everywhere_dispatched(image, samples);
+}
 
 std::vector<std::string> cpu_instruction_sets() {
   std::vector<std::string> names;
