@@ -10,8 +10,8 @@ namespace {
 
 void pick(const CostVolume& costs, const CostVolume& sums, int column, int row, MatchResult& result) {
   const int count = costs.planes_at(column, row).count();
-  const std::uint16_t* cost = costs.cell(column, row);
-  const std::uint16_t* sum = sums.cell(column, row);
+  const Cost* cost = costs.cell(column, row);
+  const Cost* sum = sums.cell(column, row);
   int seen = 0;
   double total = 0;
   for (int i = 0; i < count; ++i) {

@@ -6,7 +6,7 @@
 
 namespace skysweep::sweep {
 
-CostVolume::CostVolume(const SweepProblem& problem, std::uint16_t value)
+CostVolume::CostVolume(const SweepProblem& problem, Cost value)
     : width_(problem.grid.width),
       height_(problem.grid.height),
       all_planes_(problem.all_planes()),
@@ -46,12 +46,12 @@ std::size_t CostVolume::bytes_for(const SweepProblem& problem) {
       size += static_cast<std::size_t>(width) * height * padded_planes(problem.block_planes(bx, by));
     }
   }
-  return size * sizeof(std::uint16_t);
+  return size * sizeof(Cost);
 }
 
-std::uint16_t quantized_cost(double grey_levels) {
+Cost quantized_cost(double grey_levels) {
   if (!(grey_levels < kWorstCost / kCostScale)) return kWorstCost;
-  return static_cast<std::uint16_t>(std::nearbyint(grey_levels * kCostScale));
+  return static_cast<Cost>(std::nearbyint(grey_levels * kCostScale));
 }
 
 }  // namespace skysweep::sweep

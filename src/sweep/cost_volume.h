@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The matching costs of all cells and planes of a problem, whole numbers of kCostScale units a grey level, so that what
 // is computed from them is exact. Planes lie innermost; each block of cells has its own range of planes.
+// Why 32 bits: docs/decisions/0006.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +12,17 @@
 
 namespace skysweep::sweep {
 
-constexpr double kCostScale = 64;              // units per grey level
-constexpr std::uint16_t kWorstCost = 4000;     // where fewer than min_views views show the sample, and the limit of all
-constexpr std::uint16_t kBeyondRange = 65535;  // padding behind the last plane: no sum gets past it
-constexpr int kVolumeLanes = 32;               // planes of a cell are padded to a multiple of this
+using Cost = std::int32_t;
+
+constexpr double kCostScale = 1 << 20;  // units per grey level: below what single precision resolves in a cost
+constexpr Cost kWorstCost = 125 << 19;  // 62.5 grey levels: fewer than min_views views, and the limit of all costs
+constexpr Cost kBeyondRange = (1 << 30) - 1;  // padding behind the last plane: above any sum of eight paths
+constexpr int kVolumeLanes = 16;              // planes of a cell are padded to a multiple of this
 
 class CostVolume {
  public:
   // All cells of the problem, filled with `value`; padding with kBeyondRange.
-  CostVolume(const SweepProblem& problem, std::uint16_t value);
+  CostVolume(const SweepProblem& problem, Cost value);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -27,10 +30,10 @@ class CostVolume {
   PlaneRange all_planes() const { return all_planes_; }
 
   // Values of a cell, the first for planes_at(column, row).first.
-  std::uint16_t* cell(int column, int row) { return values_.data() + offset(column, row); }
-  const std::uint16_t* cell(int column, int row) const { return values_.data() + offset(column, row); }
+  Cost* cell(int column, int row) { return values_.data() + offset(column, row); }
+  const Cost* cell(int column, int row) const { return values_.data() + offset(column, row); }
 
-  std::size_t bytes() const { return values_.size() * sizeof(std::uint16_t); }
+  std::size_t bytes() const { return values_.size() * sizeof(Cost); }
 
   // Elements that one cell of a block with this range takes.
   static int padded_planes(PlaneRange planes) {
@@ -49,10 +52,10 @@ class CostVolume {
   Array2d<PlaneRange> block_planes_;
   Array2d<std::size_t> block_offset_;    // of the block's first cell within a row of cells
   std::vector<std::size_t> row_offset_;  // of each row of cells
-  std::vector<std::uint16_t> values_;
+  std::vector<Cost> values_;
 };
 
 // Whole-number cost of a mean absolute difference in grey levels; infinity becomes kWorstCost.
-std::uint16_t quantized_cost(double grey_levels);
+Cost quantized_cost(double grey_levels);
 
 }  // namespace skysweep::sweep

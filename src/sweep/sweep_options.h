@@ -42,7 +42,7 @@ struct SweepOptions {
   double large_step_penalty = 8;
 
   // Most that the cost volume of a tile may take (its sums take as much again): a larger one is swept in bands.
-  int volume_limit_mib = 256;
+  int volume_limit_mib = 512;
 
   // A sample that fewer views show has no cost. At least 2.
   int min_views = 2;

@@ -113,19 +113,18 @@ void match_row(const RowJob& job, RowState& state) {
 }
 
 // Costs of a row into the volume: `cell` is the row's first cell, `stride` elements from one cell to the next.
-void fill_row(const RowJob& job, std::uint16_t* cell, int stride) {
+void fill_row(const RowJob& job, Cost* cell, int stride) {
   const F f;
   const I i32;
   for_each_segment(job, [&](int k, int first, const float* costs) {
-    alignas(64) std::array<std::int32_t, kSegmentCells> quantized;
+    alignas(64) std::array<Cost, kSegmentCells> quantized;
     for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
       const VF units = hn::Mul(hn::Load(f, costs + i), hn::Set(f, static_cast<float>(kCostScale)));
       hn::Store(hn::NearestInt(hn::Min(units, hn::Set(f, static_cast<float>(kWorstCost)))), i32, quantized.data() + i);
     }
     const int cells = std::min(kSegmentCells, job.cells - first);
-    std::uint16_t* to = cell + static_cast<std::ptrdiff_t>(first) * stride + (k - job.planes.first);
-    for (int i = 0; i < cells; ++i)
-      to[static_cast<std::ptrdiff_t>(i) * stride] = static_cast<std::uint16_t>(quantized[i]);
+    Cost* to = cell + static_cast<std::ptrdiff_t>(first) * stride + (k - job.planes.first);
+    for (int i = 0; i < cells; ++i) to[static_cast<std::ptrdiff_t>(i) * stride] = quantized[i];
   });
 }
 
@@ -247,15 +246,24 @@ double bilinear_sampling_ceiling(const ImagePyramid& image, long long samples) {
   return cpu::sample_everywhere_dispatched(image, samples);
 }
 
-std::vector<std::string> cpu_instruction_sets() {
+namespace {
+std::vector<std::string> allowed_instruction_sets() {
   std::vector<std::string> names;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
   return names;
 }
+}  // namespace
 
-std::string cpu_instruction_set_in_use() { return cpu_instruction_sets().front(); }
+std::vector<std::string> cpu_instruction_sets() {
+  // Asked before use_cpu_instruction_set restricts them.
+  static const std::vector<std::string> all = allowed_instruction_sets();
+  return all;
+}
+
+std::string cpu_instruction_set_in_use() { return allowed_instruction_sets().front(); }
 
 void use_cpu_instruction_set(const std::string& name) {
+  cpu_instruction_sets();
   hwy::SetSupportedTargetsForTest(0);  // everything the machine has is allowed again
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     if (hwy::TargetName(target) != name) continue;

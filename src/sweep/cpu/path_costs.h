@@ -17,14 +17,14 @@ constexpr int kPathsPerPass = 4;
 // One cell's step along its paths; pointers stand at the cell's first plane. before[i] may be read one plane below and
 // a vector beyond the cell's range; null where the path begins.
 struct CellUpdate {
-  const std::uint16_t* costs = nullptr;
-  std::uint16_t* sums = nullptr;
-  std::array<const std::uint16_t*, kPathsPerPass> before{};
-  std::array<std::uint16_t*, kPathsPerPass> now{};
-  std::array<std::uint16_t, kPathsPerPass> least_before{};
-  mutable std::array<std::uint16_t, kPathsPerPass> least_now{};
+  const Cost* costs = nullptr;
+  Cost* sums = nullptr;
+  std::array<const Cost*, kPathsPerPass> before{};
+  std::array<Cost*, kPathsPerPass> now{};
+  std::array<Cost, kPathsPerPass> least_before{};
+  mutable std::array<Cost, kPathsPerPass> least_now{};
   int padded_planes = 0;
-  std::uint16_t small_penalty = 0, large_penalty = 0;
+  Cost small_penalty = 0, large_penalty = 0;
 };
 
 // Path costs addressed by absolute plane, so that neighbours with different ranges meet at the right planes;
@@ -43,11 +43,11 @@ class PathRows {
   // The row in work becomes the row before.
   void begin_row() { std::swap(rows_[0], rows_[1]); }
 
-  std::uint16_t* values(int path, int column, bool in_work, int plane) {
+  Cost* values(int path, int column, bool in_work, int plane) {
     return rows_[in_work].values[path].data() + static_cast<std::size_t>(column) * stride_ + kMargin + plane -
            first_plane_;
   }
-  std::uint16_t& least(int path, int column, bool in_work) { return rows_[in_work].least[path][column]; }
+  Cost& least(int path, int column, bool in_work) { return rows_[in_work].least[path][column]; }
 
   // Before a cell of the row in work is written: what an earlier row left outside its planes goes.
   void forget_outside(int column, PlaneRange planes) {
@@ -61,8 +61,8 @@ class PathRows {
  private:
   static constexpr int kMargin = kVolumeLanes;
   struct Row {
-    std::array<std::vector<std::uint16_t>, kPathsPerPass> values;
-    std::array<std::vector<std::uint16_t>, kPathsPerPass> least;
+    std::array<std::vector<Cost>, kPathsPerPass> values;
+    std::array<std::vector<Cost>, kPathsPerPass> least;
     std::vector<PlaneRange> ranges;  // of each cell last written
   };
   int first_plane_, stride_, width_;

@@ -12,30 +12,30 @@ HWY_BEFORE_NAMESPACE();
 namespace skysweep::sweep::cpu::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using U16 = hn::CappedTag<std::uint16_t, kVolumeLanes>;
+using C = hn::CappedTag<Cost, kVolumeLanes>;
 
 // Path costs of one cell from those of the cell before, for all four directions of a pass, added to the sums.
 void continue_paths(const CellUpdate& cell) {
-  const U16 d;
-  const auto small = hn::Set(d, cell.small_penalty);
+  const C d;
+  const auto small = hn::Set(d, cell.small_penalty), beyond = hn::Set(d, kBeyondRange);
   for (int direction = 0; direction < kPathsPerPass; ++direction) {
-    const std::uint16_t* HWY_RESTRICT before = cell.before[direction];
-    std::uint16_t* HWY_RESTRICT now = cell.now[direction];
-    const auto least = hn::Set(d, before ? cell.least_before[direction] : std::uint16_t{0});
-    const auto jump = hn::SaturatedAdd(least, hn::Set(d, cell.large_penalty));
-    auto running_least = hn::Set(d, kBeyondRange);
+    const Cost* HWY_RESTRICT before = cell.before[direction];
+    Cost* HWY_RESTRICT now = cell.now[direction];
+    const auto least = hn::Set(d, before ? cell.least_before[direction] : Cost{0});
+    const auto jump = hn::Add(least, hn::Set(d, cell.large_penalty));
+    auto running_least = beyond;
     for (int k = 0; k < cell.padded_planes; k += static_cast<int>(hn::Lanes(d))) {
       auto value = hn::LoadU(d, cell.costs + k);
       if (before) {
         const auto neighbour = hn::Min(hn::LoadU(d, before + k - 1), hn::LoadU(d, before + k + 1));
-        const auto best = hn::Min(hn::Min(hn::LoadU(d, before + k), hn::SaturatedAdd(neighbour, small)), jump);
-        value = hn::SaturatedAdd(value, hn::Sub(best, least));
+        const auto best = hn::Min(hn::Min(hn::LoadU(d, before + k), hn::Add(neighbour, small)), jump);
+        value = hn::Min(hn::Add(value, hn::Sub(best, least)), beyond);
       }
       hn::StoreU(value, d, now + k);
-      hn::StoreU(hn::SaturatedAdd(hn::LoadU(d, cell.sums + k), value), d, cell.sums + k);
+      hn::StoreU(hn::Min(hn::Add(hn::LoadU(d, cell.sums + k), value), beyond), d, cell.sums + k);
       running_least = hn::Min(running_least, value);
     }
-    alignas(64) std::array<std::uint16_t, kVolumeLanes> lanes;
+    alignas(64) std::array<Cost, kVolumeLanes> lanes;
     hn::Store(running_least, d, lanes.data());
     cell.least_now[direction] = *std::min_element(lanes.begin(), lanes.begin() + hn::Lanes(d));
   }
@@ -71,8 +71,8 @@ void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, Cos
       cell.costs = costs.cell(column, row);
       cell.sums = sums.cell(column, row);
       cell.padded_planes = CostVolume::padded_planes(planes);
-      cell.small_penalty = static_cast<std::uint16_t>(penalties.small);
-      cell.large_penalty = static_cast<std::uint16_t>(penalties.large);
+      cell.small_penalty = penalties.small;
+      cell.large_penalty = penalties.large;
       rows.forget_outside(column, planes);
       for (int path = 0; path < kPathsPerPass; ++path) {
         const int before_column = column + sign * kBefore[path][0], before_row = row + sign * kBefore[path][1];
@@ -80,7 +80,7 @@ void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, Cos
                             !costs.planes_at(before_column, before_row).empty();
         const bool same_row = kBefore[path][1] == 0;
         cell.before[path] = exists ? rows.values(path, before_column, same_row, planes.first) : nullptr;
-        cell.least_before[path] = exists ? rows.least(path, before_column, same_row) : std::uint16_t{0};
+        cell.least_before[path] = exists ? rows.least(path, before_column, same_row) : Cost{0};
         cell.now[path] = rows.values(path, column, true, planes.first);
       }
       if (planes.empty()) continue;

@@ -19,7 +19,7 @@ struct PathCosts {
 
 PathCosts continue_path(const CostVolume& costs, int column, int row, const PathCosts* before, Penalties penalties) {
   PathCosts out{costs.planes_at(column, row), {}};
-  const std::uint16_t* cost = costs.cell(column, row);
+  const Cost* cost = costs.cell(column, row);
   for (int k = out.planes.first; k <= out.planes.last; ++k) {
     int value = cost[k - out.planes.first];
     if (before && !before->planes.empty()) {
@@ -37,9 +37,8 @@ void add_path(const CostVolume& costs, int column, int row, int dx, int dy, Pena
   for (bool first = true; column >= 0 && column < costs.width() && row >= 0 && row < costs.height();
        column += dx, row += dy, first = false) {
     before = continue_path(costs, column, row, first ? nullptr : &before, penalties);
-    std::uint16_t* sum = sums.cell(column, row);
-    for (std::size_t i = 0; i < before.values.size(); ++i)
-      sum[i] = static_cast<std::uint16_t>(sum[i] + before.values[i]);
+    Cost* sum = sums.cell(column, row);
+    for (std::size_t i = 0; i < before.values.size(); ++i) sum[i] += before.values[i];
   }
 }
 
