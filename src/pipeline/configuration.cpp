@@ -98,6 +98,7 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("smoothing", o.smoothing);
   key("small_step_penalty", o.small_step_penalty);
   key("large_step_penalty", o.large_step_penalty);
+  key("refinement_radius_cells", o.refinement_radius_cells);
   key("volume_limit_mib", o.volume_limit_mib);
   key("min_views", o.min_views);
   key("few_views_penalty", o.few_views_penalty);

@@ -6,6 +6,7 @@
 #include "sweep/cpu/match_cpu.h"
 #include "sweep/reference/match_reference.h"
 #include "sweep/smoothing.h"
+#include "sweep/sub_plane.h"
 
 namespace skysweep::sweep {
 
@@ -23,7 +24,9 @@ MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor&
   for (const Band& band : bands_within(problem)) {
     const SweepProblem part = part_of(problem, band);
     const CostVolume costs = match_costs(part, backend, executor);
-    copy_core(best_planes(costs, smooth(part, costs, backend)), band, result);
+    MatchResult matches = best_planes(costs, smooth(part, costs, backend));
+    refine_fractions(costs, part.options.refinement_radius_cells, executor, matches);
+    copy_core(matches, band, result);
   }
   return result;
 }

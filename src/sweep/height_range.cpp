@@ -34,6 +34,7 @@ SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_hig
   coarse.options = fine.options;
   coarse.options.window_level_min = 0;
   coarse.options.window_level_max = 2;
+  coarse.options.refinement_radius_cells = 0;  // ranges need no better heights
   coarse.options.max_cost_to_mean = kMaxCostToMean;
   coarse.search_everywhere(planes_between(z_low, z_high, coarse.dz_m, 1));
   return coarse;

@@ -14,7 +14,7 @@ struct MatchResult {
   Array2d<int> plane;   // k of the best plane z = k dz; on ties the lowest plane; meaningless where cost is infinite
   Array2d<float> cost;  // matching cost at the best plane, grey levels; infinity = too few views
   Array2d<float> mean_cost;  // over all planes that had a cost
-  Array2d<float> fraction;   // vertex of the parabola through the best plane and its neighbours, planes above the best
+  Array2d<float> fraction;   // where the cost curve is least, planes above the best
   Array2d<float> bend;       // second difference there, grey levels; NaN (both) where a neighbour has no cost
 };
 

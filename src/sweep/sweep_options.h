@@ -41,6 +41,11 @@ struct SweepOptions {
   double small_step_penalty = 1;
   double large_step_penalty = 8;
 
+  // With smoothing: the height between planes is steadied by the costs of the cells up to this many columns and rows
+  // away that lie on the same surface (sweep/sub_plane.h); 0: each cell from its own path sums, which locks heights to
+  // the planes.
+  int refinement_radius_cells = 3;
+
   // Most that the cost volume of a tile may take (its sums take as much again): a larger one is swept in bands.
   int volume_limit_mib = 512;
 

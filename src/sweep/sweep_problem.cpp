@@ -13,6 +13,8 @@ std::optional<std::string> SweepOptions::problem() const {
     return "normalization_radius_px must lie between 0 (off) and 100";
   if (!(small_step_penalty >= 0 && large_step_penalty >= small_step_penalty && large_step_penalty <= 60))
     return "penalties must satisfy 0 <= small_step_penalty <= large_step_penalty <= 60 grey levels";
+  if (refinement_radius_cells < 0 || refinement_radius_cells > 16)
+    return "refinement_radius_cells must lie between 0 (off) and 16";
   if (volume_limit_mib < 1 || volume_limit_mib > 65536) return "volume_limit_mib must lie between 1 and 65536";
   if (min_views < 2 || min_views > kMaxViews) return "min_views must lie between 2 and " + std::to_string(kMaxViews);
   if (!(few_views_penalty >= 0 && few_views_penalty <= 100)) return "few_views_penalty must lie between 0 and 100";

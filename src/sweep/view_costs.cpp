@@ -19,21 +19,23 @@ double mean_of_lowest(Costs costs, int count, int used) {
   return sum / used;
 }
 
-// Mean difference of the pairs among the views whose C_k is one of the lowest.
+// Mean difference of the pairs of views, weighted by how near their C_k are to being one of the lowest.
 double difference_within_consensus(const ViewSamples& samples, const Costs& costs) {
   Costs sorted = costs;
   std::sort(sorted.begin(), sorted.begin() + samples.count);
   const double limit = sorted[consensus_size(samples.count) - 1];
-  double sum = 0;
-  int pairs = 0;
+  const double reach = kConsensusSoftness * limit + kConsensusSoftnessGrey;
+  const auto weight = [&](int k) { return std::clamp(1 - (costs[k] - limit) / reach, 0.0, 1.0); };
+  double sum = 0, weights = 0;
   for (int i = 0; i < samples.count; ++i) {
     for (int k = i + 1; k < samples.count; ++k) {
-      if (costs[i] > limit || costs[k] > limit) continue;
-      sum += samples.difference(i, k);
-      ++pairs;
+      const double both = weight(i) * weight(k);
+      if (both == 0) continue;
+      sum += both * samples.difference(i, k);
+      weights += both;
     }
   }
-  return sum / pairs;
+  return sum / weights;
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ struct ViewSamples {
 // `use` says which views may take part; null means all.
 ViewSamples sample_views(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use);
 
-// C_k = 1 / (n - 1) sum over the other views of their difference to view k (METHODS section 4, divided by the number of
-// terms so that costs of different n compare). Zero with fewer than two views.
+// C_k = 1 / (n - 1) sum over the other views of their difference to view k (divided by the number of terms so that
+// costs of different n compare). Zero with fewer than two views.
 std::array<double, kMaxViews> view_costs(const ViewSamples& samples);
 
 // The matching cost AC of the point, as options.aggregation says, plus few_views_penalty / n; infinity with fewer than
@@ -36,5 +36,10 @@ double matching_cost(const ViewSamples& samples, const SweepOptions& options);
 
 // How many of n views Aggregation::consensus takes.
 constexpr int consensus_size(int n) { return n < 3 ? 2 : (n + 1) / 2; }
+
+// A view whose C_k is above the consensus's highest, `limit`, still counts a little: its weight falls from 1 at the
+// limit to 0 at limit (1 + kConsensusSoftness) + kConsensusSoftnessGrey. So the cost does not jump where two views
+// change ranks, and rounding does not decide which of them counts.
+constexpr double kConsensusSoftness = 0.1, kConsensusSoftnessGrey = 1. / 64;
 
 }  // namespace skysweep::sweep

@@ -86,7 +86,7 @@ TEST(Smoothing, lets_a_clear_step_be) {
 
 TEST(CostVolume, costs_are_rounded_to_units_and_limited) {
   EXPECT_EQ(quantized_cost(0), 0);
-  EXPECT_EQ(quantized_cost(1), 64);
+  EXPECT_EQ(quantized_cost(1), 1 << 20);
   EXPECT_EQ(quantized_cost(1e9), kWorstCost);
   EXPECT_EQ(quantized_cost(std::numeric_limits<double>::infinity()), kWorstCost);
 }

@@ -107,7 +107,7 @@ TEST(PlaneSweep, in_bands_finds_nearly_the_same_heights_within_the_memory_it_is_
   test::set_grid(p.problem, 256, 0.08, 0.1, -2.5, 2.5);
   SerialExecutor serial;
   const Heights whole = heights_from_matches(p.problem, match_planes(p.problem, Backend::cpu, serial));
-  p.problem.options.volume_limit_mib = 7;  // of 8
+  p.problem.options.volume_limit_mib = 14;  // of 16
   EXPECT_EQ(bands_within(p.problem).size(), 2u);
   const Heights bands = heights_from_matches(p.problem, match_planes(p.problem, Backend::cpu, serial));
   int different = 0;
@@ -133,6 +133,7 @@ TEST(SweepOptions, each_changes_the_result) {
     return false;
   };
   EXPECT_FALSE(differs([](SweepOptions&) {}));
+  EXPECT_TRUE(differs([](SweepOptions& o) { o.refinement_radius_cells = 0; }));
   EXPECT_TRUE(differs([](SweepOptions& o) { o.window_level_min = 1; }));
   EXPECT_TRUE(differs([](SweepOptions& o) { o.window_level_max = 2; }));
   EXPECT_TRUE(differs([](SweepOptions& o) { o.aggregation = Aggregation::all_views; }));

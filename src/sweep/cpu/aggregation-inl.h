@@ -130,7 +130,7 @@ HWY_INLINE VF mean_within_consensus(const Lanes& lanes) {
   const F f;
   const int count = lanes.samples.count;
   const VF half = hn::Set(f, 0.5f), one = hn::Set(f, 1.0f), two = hn::Set(f, 2.0f);
-  alignas(64) std::array<float, kMaxViews * kSegmentCells> sorted, member;
+  alignas(64) std::array<float, kMaxViews * kSegmentCells> sorted, weight;
   const int most = consensus_size(count);
   lanes.sort(std::min(most, count), sorted.data());
   const VF size = hn::Max(two, hn::Floor(hn::Mul(hn::Add(lanes.n, one), half)));
@@ -138,22 +138,30 @@ HWY_INLINE VF mean_within_consensus(const Lanes& lanes) {
   for (int k = 0; k < std::min(most, count); ++k)
     limit = hn::IfThenElse(hn::Eq(size, hn::Set(f, static_cast<float>(k + 1))),
                            hn::Load(f, sorted.data() + k * kSegmentCells + lanes.i), limit);
-  VF members = hn::Zero(f);
+  const VF least_reach =
+      hn::Set(f, static_cast<float>(kConsensusSoftnessGrey * kLuminanceScale * lanes.samples.levels));
+  const VF reach = hn::MulAdd(hn::Set(f, static_cast<float>(kConsensusSoftness)), limit,
+                              hn::Mul(least_reach, hn::Sub(lanes.n, one)));
+  const VF per_reach = hn::Div(one, reach);
+  VF weights = hn::Zero(f), squares = hn::Zero(f);
   for (int k = 0; k < count; ++k) {
-    const VF is_member = hn::IfThenElseZero(hn::Le(lanes.cost(k), limit), lanes.shown(k));
-    hn::Store(is_member, f, member.data() + k * kSegmentCells + lanes.i);
-    members = hn::Add(members, is_member);
+    const VF beyond = hn::Mul(hn::Sub(lanes.cost(k), limit), per_reach);
+    const VF own = hn::Mul(lanes.shown(k), hn::Min(one, hn::Max(hn::Zero(f), hn::Sub(one, beyond))));
+    hn::Store(own, f, weight.data() + k * kSegmentCells + lanes.i);
+    weights = hn::Add(weights, own);
+    squares = hn::MulAdd(own, own, squares);
   }
   VF sum = hn::Zero(f);
   const float* pair = lanes.differences.pair.data() + lanes.i;
   for (int k = 0; k + 1 < count; ++k) {
-    const VF first = hn::Load(f, member.data() + k * kSegmentCells + lanes.i);
+    const VF first = hn::Load(f, weight.data() + k * kSegmentCells + lanes.i);
     VF of_first = hn::Zero(f);
     for (int j = k + 1; j < count; ++j, pair += kSegmentCells)
-      of_first = hn::MulAdd(hn::Load(f, pair), hn::Load(f, member.data() + j * kSegmentCells + lanes.i), of_first);
+      of_first = hn::MulAdd(hn::Load(f, pair), hn::Load(f, weight.data() + j * kSegmentCells + lanes.i), of_first);
     sum = hn::MulAdd(of_first, first, sum);
   }
-  return hn::Div(sum, hn::Mul(half, hn::Mul(members, hn::Sub(members, one))));
+  // The sum over the pairs of w_k w_j.
+  return hn::Div(sum, hn::Mul(half, hn::Sub(hn::Mul(weights, weights), squares)));
 }
 
 // AC of every cell of a segment, grey levels.

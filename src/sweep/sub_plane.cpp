@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/sub_plane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace skysweep::sweep {
+namespace {
+
+constexpr int kSameSurfacePlanes = 3;
+
+// Sums of costs at one plane and its neighbours: whole numbers, so the order of addition does not matter.
+struct CostTriple {
+  std::array<std::int64_t, 3> sum{};
+};
+
+void add(const CostVolume& costs, int column, int row, int plane, CostTriple& triple) {
+  const PlaneRange planes = costs.planes_at(column, row);
+  if (plane - 1 < planes.first || plane + 1 > planes.last) return;
+  const Cost* cost = costs.cell(column, row) + (plane - planes.first);
+  if (cost[-1] == kWorstCost || cost[1] == kWorstCost) return;
+  for (int i = 0; i < 3; ++i) triple.sum[i] += cost[i - 1];
+}
+
+CostTriple costs_around(const CostVolume& costs, const MatchResult& result, int column, int row, int plane,
+                        int radius) {
+  CostTriple triple;
+  const int left = std::max(0, column - radius), right = std::min(costs.width() - 1, column + radius);
+  const int top = std::max(0, row - radius), bottom = std::min(costs.height() - 1, row + radius);
+  for (int y = top; y <= bottom; ++y)
+    for (int x = left; x <= right; ++x)
+      if (std::isfinite(result.cost(x, y)) && std::abs(result.plane(x, y) - plane) <= kSameSurfacePlanes)
+        add(costs, x, y, plane, triple);
+  return triple;
+}
+
+// Planes above the cell's best one; NaN if the cells around do not tell.
+double refined_fraction(const CostVolume& costs, const MatchResult& result, int column, int row, int radius) {
+  const int best = result.plane(column, row);
+  CostTriple around = costs_around(costs, result, column, row, best, radius);
+  // Where two planes are nearly equal, chance chose between them: the least of the common costs must not depend on it.
+  const int step = around.sum[0] < around.sum[1] ? -1 : around.sum[2] < around.sum[1] ? 1 : 0;
+  if (step != 0) around = costs_around(costs, result, column, row, best + step, radius);
+  const auto [below, middle, above] = around.sum;
+  return step + std::clamp(sub_plane_vertex(static_cast<double>(below), static_cast<double>(middle),
+                                            static_cast<double>(above)),
+                           -0.5, 0.5);
+}
+
+}  // namespace
+
+double sub_plane_vertex(double below, double middle, double above) {
+  const double bend = below - 2 * middle + above, rise = std::max(below, above) - middle;
+  if (!(bend > 0 && rise > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const double lean = 0.5 * (below - above);
+  return 0.5 * (lean / bend + lean / rise);
+}
+
+void refine_fractions(const CostVolume& costs, int radius, Executor& executor, MatchResult& result) {
+  if (radius == 0) return;
+  executor.parallel_for(costs.height(), [&](int row) {
+    for (int column = 0; column < costs.width(); ++column) {
+      if (!std::isfinite(result.fraction(column, row))) continue;
+      const double fraction = refined_fraction(costs, result, column, row, radius);
+      if (std::isfinite(fraction)) result.fraction(column, row) = static_cast<float>(fraction);
+    }
+  });
+}
+
+}  // namespace skysweep::sweep
