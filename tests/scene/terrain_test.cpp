@@ -200,7 +200,7 @@ TEST(Terrain, the_shore_of_an_island_is_its_outline) {
   EXPECT_GT(ground.at({50, 50}).z, 2);
   EXPECT_NEAR(ground.at({-200, 50}).z, -5, 0.01);
   for (const Vec2d corner : koch_outline(shape.center, shape.radius_m, shape.koch_depth, 9))
-    EXPECT_NEAR(ground.at(corner).z, 0, 0.12);  // smoothed by the lattice of 0.35 m
+    EXPECT_NEAR(ground.at(corner).z, 0, 0.3);  // rounded by the lattice of 0.35 m, on slopes of up to 1/2
 }
 
 TEST(Terrain, signed_distances_are_those_of_a_square) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -12,9 +13,9 @@
 namespace skysweep::scene {
 namespace {
 
-constexpr LinearRgb kRockColor{0.30f, 0.255f, 0.20f}, kSandColor{0.50f, 0.42f, 0.29f},
-    kWetSandColor{0.25f, 0.20f, 0.13f}, kWaterColor{0.025f, 0.075f, 0.095f}, kAsphaltColor{0.115f, 0.115f, 0.12f},
-    kTileColor{0.34f, 0.31f, 0.27f}, kJointColor{0.12f, 0.11f, 0.10f};
+constexpr LinearRgb kRockColor{0.30f, 0.255f, 0.20f}, kSandColor{0.50f, 0.42f, 0.29f}, kWetSandColor{0.25f, 0.20f, 0.13f},
+    kWaterColor{0.025f, 0.075f, 0.095f}, kAsphaltColor{0.115f, 0.115f, 0.12f}, kTileColor{0.34f, 0.31f, 0.27f},
+    kJointColor{0.12f, 0.11f, 0.10f}, kGravelColor{0.37f, 0.335f, 0.27f};
 
 LinearRgb blend(LinearRgb a, LinearRgb b, float t) { return (1 - t) * a + t * b; }
 
@@ -30,12 +31,18 @@ int mirrored(int i, int count) {
   return in_period < count ? in_period : period - 1 - in_period;
 }
 
+double dug_below(const Terrain& terrain) {
+  const auto* quarry = std::get_if<QuarryTerrain>(&terrain.shape);
+  return quarry ? -0.5 * terrain.relief_m - 0.2 : -std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 GroundCover::GroundCover(const Scene& scene, const Ground& ground)
     : ground_(ground),
       kind_(scene.texture.ground),
       bares_(!ground.plain()),
+      dug_below_m_(dug_below(scene.terrain)),
       period_m_(scene.texture.period_m),
       finest_m_(scene.finest_detail_m()),
       contrast_(static_cast<float>(scene.texture.contrast)),
@@ -124,6 +131,10 @@ LinearRgb GroundCover::bared(LinearRgb cover, Vec3d position, Vec3d normal) cons
   LinearRgb out = (1 + contrast_ * tone) * cover;
   const float patchy =
       value_noise(p.x / 2.3, p.y / 2.3, seed_ + 98) + 0.6f * value_noise(p.x / 0.6, p.y / 0.6, seed_ + 99);
+  if (position.z < dug_below_m_) {
+    const float tracks = value_noise(p.x / 1.1, p.y / 3.7, seed_ + 104);
+    out = std::max(0.2f, 1 + contrast_ * (0.6f * detail(p, 4, seed_ + 105) + 0.12f * tracks)) * kGravelColor;
+  }
   if (const auto level = ground_.water_level_m()) {
     const double above = position.z - *level + 0.12 * patchy;
     const float sandy = 1 - ramp(above, 0.45, 0.75);

@@ -43,6 +43,7 @@ class GroundCover {
   const Ground& ground_;
   GroundTexture kind_;
   bool bares_;
+  double dug_below_m_;  // ground lower than this has been dug: it is bare gravel
   double period_m_, finest_m_;
   float contrast_;
   std::uint32_t seed_;

@@ -89,7 +89,7 @@ HeightSample Fractal::at(Vec2d p) const {
 HeightRange Fractal::heights(const Box2d&) const { return {-sum_m_, sum_m_}; }
 
 MeshPlan Fractal::mesh_plan() const {
-  constexpr double kPerOctave = 6;
+  constexpr double kPerOctave = 8;
   MeshPlan plan;
   plan.spacing_m = shortest_m_ / kPerOctave;
   return plan;

@@ -157,10 +157,10 @@ std::optional<GroundTracer::Cell> GroundTracer::cell_at(Vec2d uv) const {
 }
 
 bool GroundTracer::starts_near_ground(const Ray& ray) const {
-  if (ray.origin.z > highest_m_ + 2 * widest_band_m_ + slack_m_) return false;
+  if (ray.origin.z > highest_m_ + widest_band_m_ + slack_m_) return false;
   const Vec2d p{ray.origin.x, ray.origin.y};
   const std::optional<Cell> cell = cell_at(to_uv(p));
-  return cell && ray.origin.z - ground_.at(p).z <= 2 * band_(cell->column, cell->row) + slack_m_;
+  return cell && ray.origin.z - ground_.at(p).z <= band_(cell->column, cell->row) + slack_m_;
 }
 
 GroundTracer::Walk GroundTracer::walk(const Ray& ray, double t, double mesh_t, double reach) const {
@@ -178,7 +178,7 @@ GroundTracer::Walk GroundTracer::walk(const Ray& ray, double t, double mesh_t, d
     const double step = safe_step(std::max(0.0, gap), closing, curvature_(cell->column, cell->row) * dot(along, along));
     if (gap <= 0) return {End::hit, i == 0 ? step_back_to_root(ray, t) : t};
     if (gap < kOnGround_m && closing > 0) return {End::hit, t + step};
-    if (t >= mesh_t && gap > 2 * band_(cell->column, cell->row) + slack_m_) return {End::above, t};
+    if (t >= mesh_t && gap > band_(cell->column, cell->row) + slack_m_) return {End::above, t};
     const double exit = std::min(leaves(u_lines_, cell->column, uv_origin.x, uv_along.x),
                                  leaves(v_lines_, cell->row, uv_origin.y, uv_along.y));
     t = t + step < exit ? t + step : std::max(t, exit) + nudge;

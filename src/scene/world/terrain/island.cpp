@@ -13,9 +13,9 @@ namespace {
 
 constexpr int kPerRadius = 100;   // lattice points
 constexpr double kReach = 1.8;    // of the lattice, in radii from the centre
-constexpr double kInland = 0.55;  // radii from the shore where the land has reached its height
-constexpr double kBeach = 0.2;    // share of a straight rise in the land's profile
 constexpr double kShelf = 0.45;   // radii from the shore where the bed is at its depth
+constexpr double kShelfShare = 0.3;  // of the depth: falls straight from the shore
+constexpr double kPlain = 0.22, kPlainWidth = 0.22;  // share of the height, radii
 
 double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
   const Vec2d along = b - a;
@@ -23,14 +23,36 @@ double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
   return norm(p - (a + t * along));
 }
 
-// Height over the shore of a place `inland` radii from it (negative: out at sea).
-double profile(const IslandTerrain& shape, double inland) {
-  if (inland < 0) {
-    const double x = std::min(1., -inland / kShelf);
-    return -shape.sea_depth_m * x * (2 - x);
-  }
-  const double x = std::min(1., inland / kInland);
-  return shape.height_m * (kBeach * x + (1 - kBeach) * x * x * (3 - 2 * x));
+double sea_bed(const IslandTerrain& shape, double radii_from_shore) {
+  const double x = std::min(1., radii_from_shore / kShelf);
+  return -shape.sea_depth_m * (kShelfShare * x + (1 - kShelfShare) * x * x * (3 - 2 * x));
+}
+
+// A coastal plain that rises straight from the shore, and a hill on it that begins gently.
+double land(const IslandTerrain& shape, double radii_from_shore, double inland) {
+  return shape.height_m *
+         (kPlain * (1 - std::exp(-radii_from_shore / kPlainWidth)) + (1 - kPlain) * inland * std::sqrt(inland));
+}
+
+// How far inland each point of the lattice is, 0 at the shore to 1 at the place furthest from it: the height of a soap
+// film over the outline, blown up from below (Poisson's equation, solved by over-relaxation). Unlike the distance from
+// the shore it has no ridges. `distances` in radii, negative at sea.
+Array2d<double> inland_of(const Array2d<double>& distances) {
+  constexpr double kStep = 1. / kPerRadius;
+  constexpr double kOverRelaxation = 1.96;
+  constexpr int kSweeps = 600;
+  Array2d<double> film(distances.width(), distances.height());
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (int j = 1; j + 1 < film.height(); ++j)
+      for (int i = 1; i + 1 < film.width(); ++i) {
+        if (distances(i, j) <= 0) continue;
+        const double mean = 0.25 * (film(i - 1, j) + film(i + 1, j) + film(i, j - 1) + film(i, j + 1));
+        film(i, j) = std::max(0.0, film(i, j) + kOverRelaxation * (mean + 0.25 * kStep * kStep - film(i, j)));
+      }
+  const double top = *std::max_element(film.begin(), film.end());
+  if (top > 0)
+    for (double& value : film) value /= top;
+  return film;
 }
 
 }  // namespace
@@ -87,11 +109,17 @@ HeightGrid build_island(const IslandTerrain& shape, std::uint64_t seed) {
   constexpr double kHillSize = 0.6;  // radii
   constexpr int kHillOctaves = 5;    // the finest has 1/27 of a radius, four points of the lattice
   const Fractal hills({kHillOctaves, 0.5}, shape.hills_m, kHillSize * shape.radius_m, seed);
+  for (double& distance : z) distance /= shape.radius_m;
+  const Array2d<double> inland = inland_of(z);
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
-      const double inland = z(i, j) / shape.radius_m;
-      const double share = std::clamp(inland / kInland, 0., 1.);
-      z(i, j) = profile(shape, inland) + share * hills.at(first + spacing * Vec2d{1. * i, 1. * j}).z;
+      if (z(i, j) <= 0) {
+        z(i, j) = sea_bed(shape, -z(i, j));
+        continue;
+      }
+      const double hill = hills.at(first + spacing * Vec2d{1. * i, 1. * j}).z;
+      const double share = std::min(1., 2 * inland(i, j));
+      z(i, j) = std::max(0.0, land(shape, z(i, j), inland(i, j)) + share * share * hill);
     }
   return {z, first, {spacing, spacing}, HeightGrid::Beyond::border};
 }
