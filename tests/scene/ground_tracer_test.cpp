@@ -14,7 +14,7 @@
 namespace skysweep::scene {
 namespace {
 
-constexpr Box2d kExtent{{-150, -150}, {250, 250}};
+constexpr Box2d kExtent{{-60, -60}, {160, 160}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double gap(const Ground& ground, const Ray& ray, double t) {

@@ -13,9 +13,9 @@
 namespace skysweep::scene {
 namespace {
 
-constexpr LinearRgb kRockColor{0.30f, 0.255f, 0.20f}, kSandColor{0.50f, 0.42f, 0.29f}, kWetSandColor{0.25f, 0.20f, 0.13f},
-    kWaterColor{0.025f, 0.075f, 0.095f}, kAsphaltColor{0.115f, 0.115f, 0.12f}, kTileColor{0.34f, 0.31f, 0.27f},
-    kJointColor{0.12f, 0.11f, 0.10f}, kGravelColor{0.37f, 0.335f, 0.27f};
+constexpr LinearRgb kRockColor{0.30f, 0.255f, 0.20f}, kSandColor{0.50f, 0.42f, 0.29f},
+    kWetSandColor{0.25f, 0.20f, 0.13f}, kWaterColor{0.025f, 0.075f, 0.095f}, kAsphaltColor{0.115f, 0.115f, 0.12f},
+    kTileColor{0.34f, 0.31f, 0.27f}, kJointColor{0.12f, 0.11f, 0.10f}, kGravelColor{0.37f, 0.335f, 0.27f};
 
 LinearRgb blend(LinearRgb a, LinearRgb b, float t) { return (1 - t) * a + t * b; }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "scene/world/terrain/fractal.h"
 #include "scene/world/terrain/koch.h"
@@ -11,10 +12,10 @@
 namespace skysweep::scene {
 namespace {
 
-constexpr int kPerRadius = 100;   // lattice points
-constexpr double kReach = 1.8;    // of the lattice, in radii from the centre
-constexpr double kShelf = 0.45;   // radii from the shore where the bed is at its depth
-constexpr double kShelfShare = 0.3;  // of the depth: falls straight from the shore
+constexpr int kPerRadius = 100;                      // lattice points
+constexpr double kReach = 1.8;                       // of the lattice, in radii from the centre
+constexpr double kShelf = 0.45;                      // radii from the shore where the bed is at its depth
+constexpr double kShelfShare = 0.3;                  // of the depth: falls straight from the shore
 constexpr double kPlain = 0.22, kPlainWidth = 0.22;  // share of the height, radii
 
 double distance_to_segment(Vec2d p, Vec2d a, Vec2d b) {
@@ -42,13 +43,15 @@ Array2d<double> inland_of(const Array2d<double>& distances) {
   constexpr double kOverRelaxation = 1.96;
   constexpr int kSweeps = 600;
   Array2d<double> film(distances.width(), distances.height());
+  std::vector<std::pair<int, int>> dry;
+  for (int j = 1; j + 1 < film.height(); ++j)
+    for (int i = 1; i + 1 < film.width(); ++i)
+      if (distances(i, j) > 0) dry.emplace_back(i, j);
   for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (int j = 1; j + 1 < film.height(); ++j)
-      for (int i = 1; i + 1 < film.width(); ++i) {
-        if (distances(i, j) <= 0) continue;
-        const double mean = 0.25 * (film(i - 1, j) + film(i + 1, j) + film(i, j - 1) + film(i, j + 1));
-        film(i, j) = std::max(0.0, film(i, j) + kOverRelaxation * (mean + 0.25 * kStep * kStep - film(i, j)));
-      }
+    for (const auto& [i, j] : dry) {
+      const double mean = 0.25 * (film(i - 1, j) + film(i + 1, j) + film(i, j - 1) + film(i, j + 1));
+      film(i, j) = std::max(0.0, film(i, j) + kOverRelaxation * (mean + 0.25 * kStep * kStep - film(i, j)));
+    }
   const double top = *std::max_element(film.begin(), film.end());
   if (top > 0)
     for (double& value : film) value /= top;
