@@ -29,7 +29,7 @@ inline std::vector<std::pair<std::string, Terrain>> terrains_of_every_kind() {
       {"step", shaped(StepTerrain{4, 84, 15, kMiddle})},
       {"terraces", shaped(TerracesTerrain{4, 3, 5, 75, 200, kMiddle})},
       {"sinusoid", shaped(SinusoidTerrain{120, kMiddle}, 6, 25)},
-      {"fractal", shaped(FractalTerrain{7, 0.55}, 30, 60)},
+      {"fractal", shaped(FractalTerrain{6, 0.55}, 30, 50)},
       {"quarry", shaped(QuarryTerrain{kMiddle, {50, 44}, 20, 3, 4, 3, 75, 0.4})},
       {"island", shaped(IslandTerrain{kMiddle, 35, 12, 5, 6, 4})},
       {"terraces on rolling ground", shaped(TerracesTerrain{3, 2, 6, 70, 90, kMiddle}, 2, 30)},

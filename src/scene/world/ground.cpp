@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "scene/world/terrain/dem.h"
@@ -87,6 +88,21 @@ HeightGrid build_modification(const TerrainModification& change) {
   return {heights, change.center - 0.5 * change.size_m, spacing, HeightGrid::Beyond::zero};
 }
 
+// The box in (u, v) around one in (x, y), where u runs along `axis_u`; with the axis mirrored, the way back.
+Box2d turned(const Box2d& box, Vec2d axis_u) {
+  Box2d out;
+  for (const Vec2d corner : {box.min, box.max, Vec2d{box.min.x, box.max.y}, Vec2d{box.max.x, box.min.y}})
+    out.extend({dot(corner, axis_u), cross(axis_u, corner)});
+  return out;
+}
+
+// Whether they have more than a border in common.
+bool overlap(const Box2d& a, const Box2d& b) {
+  constexpr double kTouch_m = 1e-9;
+  return a.min.x < b.max.x - kTouch_m && b.min.x < a.max.x - kTouch_m && a.min.y < b.max.y - kTouch_m &&
+         b.min.y < a.max.y - kTouch_m;
+}
+
 Ground::Sample sum(const Ground::Sample& a, const Ground::Sample& b) { return {a.z + b.z, a.slope + b.slope}; }
 
 }  // namespace
@@ -101,15 +117,19 @@ Ground::Ground(const Terrain& terrain, std::uint64_t seed, const Scene* scene)
       shape_(build_shape(terrain, seed, scene)),
       water_level_m_(terrain.water_level_m) {
   if (shape_) mesh_axis_u_ = shape_->mesh_plan().axis_u;
-  for (const TerrainModification& change : terrain.modifications) modifications_.push_back(build_modification(change));
+  for (const TerrainModification& change : terrain.modifications) {
+    HeightGrid grid = build_modification(change);
+    const Box2d uv = turned(grid.extent(), mesh_axis_u_);
+    modifications_.push_back({std::move(grid), uv});
+  }
 }
 
 Ground::Sample Ground::at(Vec2d p) const {
   Sample out;
   if (rolls_) out = rolling_.at(p);
   if (shape_) out = sum(out, shape_->at(p));
-  for (const HeightGrid& change : modifications_)
-    if (change.extent().contains(p)) out = sum(out, change.at(p));
+  for (const Change& change : modifications_)
+    if (change.grid.extent().contains(p)) out = sum(out, change.grid.at(p));
   return out;
 }
 
@@ -122,8 +142,11 @@ HeightRange Ground::heights(const Box2d& box) const {
   HeightRange out{-rolling_reach_m_, rolling_reach_m_};
   const auto add = [&](const HeightRange& range) { out = {out.lowest + range.lowest, out.highest + range.highest}; };
   if (shape_) add(shape_->heights(box));
-  for (const HeightGrid& change : modifications_)
-    if (change.extent().intersects(box)) add(change.heights(box));
+  for (const Change& change : modifications_)
+    if (change.grid.extent().intersects(box)) {
+      const HeightRange range = change.grid.heights(box);  // or none, beside it
+      add({std::min(0.0, range.lowest), std::max(0.0, range.highest)});
+    }
   if (water_level_m_) out = {std::max(out.lowest, *water_level_m_), std::max(out.highest, *water_level_m_)};
   return out;
 }
@@ -139,13 +162,8 @@ double Ground::curvature(const Box2d& box) const {
   double out = 0;
   if (shape_) out += shape_->curvature(box);
   if (rolls_) out += rolling_.curvature(box);
-  if (modifications_.empty()) return out;
-  const Vec2d axis_u = mesh_axis_u_, axis_v{-axis_u.y, axis_u.x};
-  Box2d in_plan;
-  for (const Vec2d corner : {box.min, box.max, Vec2d{box.min.x, box.max.y}, Vec2d{box.max.x, box.min.y}})
-    in_plan.extend(corner.x * axis_u + corner.y * axis_v);
-  for (const HeightGrid& change : modifications_)
-    if (change.extent().intersects(in_plan)) out += change.curvature(in_plan);
+  for (const Change& change : modifications_)
+    if (overlap(change.uv, box)) out += change.grid.curvature(turned(box, {mesh_axis_u_.x, -mesh_axis_u_.y}));
   return out;
 }
 

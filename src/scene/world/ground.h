@@ -39,7 +39,11 @@ class Ground {
   // How a mesh has to lie, and how much it may deviate: see TerrainSurface.
   MeshPlan mesh_plan() const;
   double curvature(const Box2d& box) const;
-  const std::vector<HeightGrid>& modifications() const { return modifications_; }
+  struct Change {
+    HeightGrid grid;
+    Box2d uv;  // of the mesh plan, around it
+  };
+  const std::vector<Change>& modifications() const { return modifications_; }
 
  private:
   Ground(const Terrain& terrain, std::uint64_t seed, const Scene* scene);
@@ -49,7 +53,7 @@ class Ground {
   double rolling_reach_m_;
   std::shared_ptr<const TerrainSurface> shape_;
   Vec2d mesh_axis_u_{1, 0};
-  std::vector<HeightGrid> modifications_;
+  std::vector<Change> modifications_;
   std::optional<double> water_level_m_;
 };
 

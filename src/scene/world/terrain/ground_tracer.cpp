@@ -20,6 +20,7 @@ constexpr double kMostVertices = 1e6;
 // Single precision, as shares of the size of the scene: what Embree may err by, and what is clearly above the mesh.
 constexpr double kEmbreeError = 4e-6, kClearlyAbove = 1e-5;
 constexpr double kOnGround_m = 1e-10;  // vertical
+constexpr double kNudge_m = 1e-9;      // past the line between two cells
 
 // Index of the stretch between lines[i] and lines[i + 1] that holds `value`, or -1.
 int stretch_of(const std::vector<double>& lines, double value) {
@@ -61,13 +62,10 @@ GroundTracer::GroundTracer(const Ground& ground, const Box2d& extent)
     in_uv.extend(to_uv(corner));
   const double spacing = std::max(plan.spacing_m, std::sqrt(in_uv.width() * in_uv.height() / kMostVertices));
   std::vector<FineStretch> fine_u, fine_v;
-  for (const HeightGrid& change : ground.modifications()) {
-    const Box2d box = change.extent();
-    Box2d turned;
-    for (const Vec2d corner : {box.min, box.max, Vec2d{box.min.x, box.max.y}, Vec2d{box.max.x, box.min.y}})
-      turned.extend(to_uv(corner));
-    fine_u.push_back({turned.min.x, turned.max.x, change.mesh_plan().spacing_m});
-    fine_v.push_back({turned.min.y, turned.max.y, change.mesh_plan().spacing_m});
+  for (const Ground::Change& change : ground.modifications()) {
+    const double fine = change.grid.mesh_plan().spacing_m;
+    fine_u.push_back({change.uv.min.x, change.uv.max.x, fine});
+    fine_v.push_back({change.uv.min.y, change.uv.max.y, fine});
   }
   u_lines_ = mesh_lines(in_uv.min.x, in_uv.max.x, spacing, plan.u_creases, fine_u);
   v_lines_ = mesh_lines(in_uv.min.y, in_uv.max.y, spacing, {}, fine_v);
@@ -156,17 +154,34 @@ std::optional<GroundTracer::Cell> GroundTracer::cell_at(Vec2d uv) const {
   return cell;
 }
 
-bool GroundTracer::starts_near_ground(const Ray& ray) const {
-  if (ray.origin.z > highest_m_ + widest_band_m_ + slack_m_) return false;
-  const Vec2d p{ray.origin.x, ray.origin.y};
-  const std::optional<Cell> cell = cell_at(to_uv(p));
-  return cell && ray.origin.z - ground_.at(p).z <= band_(cell->column, cell->row) + slack_m_;
+std::optional<double> GroundTracer::enters(const Ray& ray) const {
+  const Vec2d from = to_uv({ray.origin.x, ray.origin.y}), along = to_uv({ray.direction.x, ray.direction.y});
+  double first = 0, last = kInfinity;
+  const auto cut = [&](double at, double rate, double low, double high) {
+    if (rate == 0) {
+      if (!(at >= low && at < high)) last = -1;
+      return;
+    }
+    const double to_low = (low - at) / rate, to_high = (high - at) / rate;
+    first = std::max(first, std::min(to_low, to_high));
+    last = std::min(last, std::max(to_low, to_high));
+  };
+  cut(from.x, along.x, u_lines_.front(), u_lines_.back());
+  cut(from.y, along.y, v_lines_.front(), v_lines_.back());
+  if (first >= last) return std::nullopt;
+  return first > 0 ? first + kNudge_m / norm(along) : 0;
+}
+
+bool GroundTracer::near_ground(const Ray& ray, double t) const {
+  const Vec3d p = ray.origin + t * ray.direction;
+  if (p.z > highest_m_ + widest_band_m_ + slack_m_) return false;
+  const std::optional<Cell> cell = cell_at(to_uv({p.x, p.y}));
+  return cell && p.z - ground_.at({p.x, p.y}).z <= band_(cell->column, cell->row) + slack_m_;
 }
 
 GroundTracer::Walk GroundTracer::walk(const Ray& ray, double t, double mesh_t, double reach) const {
   const Vec2d origin{ray.origin.x, ray.origin.y}, along{ray.direction.x, ray.direction.y};
   const Vec2d uv_origin = to_uv(origin), uv_along = to_uv(along);
-  constexpr double kNudge_m = 1e-9;  // past the line between two cells
   const double nudge = kNudge_m / std::max(norm(along), 1e-12);
   constexpr int kMostSteps = 1000000;
   for (int i = 0; i < kMostSteps && t <= reach; ++i) {
@@ -226,10 +241,12 @@ void GroundTracer::first_hits(const Ray* rays, const bool* active, int count, do
     if (!active[i]) continue;
     const Ray& ray = rays[i];
     hits[i] = water_on(ray, reach);
-    from[i] = 0;
+    const std::optional<double> entry = enters(ray);
+    if (!entry) continue;
+    from[i] = *entry;
     to[i] = hits[i] ? hits[i]->t : reach;
-    if (starts_near_ground(ray)) {
-      const Walk end = walk(ray, 0, 0, to[i]);
+    if (near_ground(ray, from[i])) {
+      const Walk end = walk(ray, from[i], from[i], to[i]);
       if (end.end == End::hit) hits[i] = Hit{end.t, false};
       if (end.end != End::above) continue;
       from[i] = end.t;

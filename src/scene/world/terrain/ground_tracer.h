@@ -48,7 +48,10 @@ class GroundTracer {
   void build_mesh();
   Vec2d to_uv(Vec2d p) const { return {dot(p, axis_u_), cross(axis_u_, p)}; }
   std::optional<Cell> cell_at(Vec2d uv) const;
-  bool starts_near_ground(const Ray& ray) const;
+  // Where a ray comes over the mesh; 0 if it starts there.
+  std::optional<double> enters(const Ray& ray) const;
+  // Whether it is so low there that it may be below the raised mesh.
+  bool near_ground(const Ray& ray, double t) const;
   // Follows a ray from `t` on until it meets the ground, is clearly above the mesh (from `mesh_t` on), or has left it
   // or passed `reach`.
   Walk walk(const Ray& ray, double t, double mesh_t, double reach) const;

@@ -125,10 +125,12 @@ double HeightGrid::curvature(const Box2d& box) const {
   const auto patch = [](double units, int count) {
     return std::clamp(static_cast<int>(std::floor(std::clamp(units, 0., 1e9))), 1, count - 3);
   };
-  const int west = patch((box.min.x - first_.x) / spacing_.x - 1e-9, heights_.width());
-  const int east = patch((box.max.x - first_.x) / spacing_.x + 1e-9, heights_.width());
-  const int south = patch((box.min.y - first_.y) / spacing_.y - 1e-9, heights_.height());
-  const int north = patch((box.max.y - first_.y) / spacing_.y + 1e-9, heights_.height());
+  // A patch that only touches the box has no part in it.
+  constexpr double kTouch = 1e-9;
+  const int west = patch((box.min.x - first_.x) / spacing_.x + kTouch, heights_.width());
+  const int east = patch((box.max.x - first_.x) / spacing_.x - kTouch, heights_.width());
+  const int south = patch((box.min.y - first_.y) / spacing_.y + kTouch, heights_.height());
+  const int north = patch((box.max.y - first_.y) / spacing_.y - kTouch, heights_.height());
   float out = 0;
   for (int j = south; j <= north; ++j)
     for (int i = west; i <= east; ++i) out = std::max(out, curvature_(i, j));

@@ -111,6 +111,8 @@ HeightRange ProfileSurface::heights(const Box2d& box) const {
 MeshPlan ProfileSurface::mesh_plan() const {
   MeshPlan plan;
   plan.axis_u = axis_u_;
+  // Beside a rounding the cells must not be long, for what a mesh deviates grows with their diagonal.
+  if (profile_.rounding_m() > 0) plan.spacing_m = 0.5 * profile_.rounding_m();
   for (const double u : profile_.creases()) plan.u_creases.push_back(u + u_of_center_);
   return plan;
 }

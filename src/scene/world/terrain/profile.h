@@ -29,6 +29,7 @@ class Profile {
 
   // Where the second derivative jumps: the corners, or both ends of each rounding.
   std::vector<double> creases() const;
+  double rounding_m() const { return rounding_m_; }
 
  private:
   // Slope of the piece after corner i; that before the first corner is i = -1.
