@@ -7,6 +7,7 @@
 
 #include "camera/camera.h"
 #include "core/random.h"
+#include "scene/world/ground.h"
 
 namespace skysweep::scene {
 namespace {
@@ -60,11 +61,20 @@ std::vector<camera::Pose> plan_flight(const Scene& scene) {
 
 Box2d visible_ground(const Scene& scene, const std::vector<camera::Pose>& poses) {
   constexpr double kFarthest = 6;  // altitudes: ground beyond is sky
+  const Ground ground(scene);
   Box2d box{{0, 0}, scene.area_m};
-  for (const camera::Pose& pose : poses)
-    for (const Vec2d p : camera::footprint({scene.camera, pose}, -0.5 * scene.terrain.relief_m - 1,
-                                           0.5 * scene.terrain.relief_m, kFarthest * scene.altitude_m()))
-      box.extend(p);
+  // How far they see depends on the heights there, and these on how far they see: on a slope that goes on and on.
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    const Box2d before = box;
+    const HeightRange heights = ground.heights(before);
+    for (const camera::Pose& pose : poses)
+      for (const Vec2d p :
+           camera::footprint({scene.camera, pose}, heights.lowest - 1, heights.highest, kFarthest * scene.altitude_m()))
+        box.extend(p);
+    const HeightRange seen = ground.heights(box);
+    if (seen.lowest >= heights.lowest && seen.highest <= heights.highest) break;
+  }
   return box;
 }
 

@@ -8,20 +8,16 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "camera/camera_model.h"
 #include "core/vec.h"
+#include "scene/terrain.h"
 
 namespace skysweep::scene {
-
-// Rolling ground: a few sinusoids of seeded directions and phases. Without relief it is the plane z = 0.
-struct Terrain {
-  double relief_m = 0;       // bound on highest minus lowest ground
-  double wavelength_m = 60;  // of the longest wave
-};
 
 // Blocks of buildings between streets, everywhere on the ground. Buildings are boxes with level roofs.
 struct Town {
@@ -42,10 +38,22 @@ struct Building {
   double roof_z_m = 0;     // height of the roof in the scene's frame, not above ground
 };
 
-// Procedural detail of all surfaces: it never repeats.
+// What covers the ground.
+enum class GroundTexture {
+  natural,  // procedural: grass, soil, shrubs or a town's streets and yards; on shaped ground rock and sand too
+  tiles,    // one pattern, repeated without end: what matching takes for something else
+  asphalt,  // grey without contrast: nothing to match
+  checker,  // squares of two greys
+  image,    // a georeferenced orthophoto, draped over the ground
+};
+
+// Procedural detail of all surfaces: it never repeats, but where the ground is told to.
 struct Texture {
   double contrast = 1;  // factor on the detail; 0: every material has one flat colour
   double finest_m = 0;  // size of the finest detail; 0: half a GSD
+  GroundTexture ground = GroundTexture::natural;
+  double period_m = 2;          // side of a tile or of a square of the checker
+  std::filesystem::path image;  // of GroundTexture::image
 };
 
 struct Light {

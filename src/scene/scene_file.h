@@ -2,7 +2,10 @@
 // Scenes as TOML files; config/scenes/ holds examples. The keys are the members of the structs in scene/scene.h:
 //
 //   seed, origin = [x, y, z], crs, area_m = [width, height]
-//   [terrain] [town] [[building]] [texture] [light] [camera] [flight] [photographs] [truth]
+//   [terrain] [[terrain.modification]] [town] [[building]] [texture] [light] [camera] [flight] [photographs] [truth]
+//
+// [terrain] kind and [texture] kind say which further keys these tables have: docs/scenes.md lists them. Files that a
+// scene names are relative to its own folder.
 //
 // [camera] is width_px, height_px, focal_px and, if wanted, principal_point_px = [cx, cy] and
 // distortion = [k1, k2, p1, p2, k3]. [town] present means a town; everything absent has the default of its member.

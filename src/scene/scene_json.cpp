@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "scene/file/terrain_json.h"
 #include "scene/scene_file.h"
 
 namespace skysweep::scene {
@@ -62,10 +63,10 @@ std::string scene_to_json(const Scene& scene) {
   out["crs"] = scene.crs;
   out["area_m"] = pair(scene.area_m);
   out["extent"] = {{"min", {o.x, o.y}}, {"max", {o.x + scene.area_m.x, o.y + scene.area_m.y}}};
-  out["terrain"] = {{"relief_m", scene.terrain.relief_m}, {"wavelength_m", scene.terrain.wavelength_m}};
+  out["terrain"] = terrain_json(scene.terrain);
   if (scene.town) out["town"] = town_json(*scene.town);
   if (!scene.buildings.empty()) out["building"] = buildings_json(scene.buildings);
-  out["texture"] = {{"contrast", scene.texture.contrast}, {"finest_m", scene.finest_detail_m()}};
+  out["texture"] = texture_json(scene);
   out["light"] = {{"sun_azimuth_deg", scene.light.sun_azimuth_deg},
                   {"sun_elevation_deg", scene.light.sun_elevation_deg},
                   {"shadows", scene.light.shadows}};

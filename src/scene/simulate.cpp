@@ -45,14 +45,18 @@ void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses,
   constexpr double kMostVisible_m = 1e5;
   if (std::max(visible.width(), visible.height()) > kMostVisible_m)
     throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
-  double highest = 0.5 * scene.terrain.relief_m;
-  if (scene.town) highest += scene.town->max_height_m;
-  for (const Building& building : scene.buildings) highest = std::max(highest, building.roof_z_m);
-  for (const camera::Pose& pose : poses)
+  const Ground ground(scene);
+  for (const camera::Pose& pose : poses) {
+    // Plain ground is bounded everywhere; on any other a flight may climb with it.
+    const Vec2d below{pose.center.x, pose.center.y};
+    double highest = ground.plain() ? 0.5 * scene.terrain.relief_m : ground.surface_m(below);
+    if (scene.town) highest += scene.town->max_height_m;
+    for (const Building& building : scene.buildings) highest = std::max(highest, building.roof_z_m);
     if (pose.center.z <= highest)
       throw usage_error("the flight is at " + std::to_string(std::lround(pose.center.z)) +
                         " m, but the scene reaches up to " + std::to_string(std::lround(highest)) +
                         " m: raise flight.gsd_m or camera.focal_px");
+  }
 }
 
 std::vector<formats::PosedImage> name_photographs(const Scene& scene, const std::vector<camera::Pose>& poses) {
@@ -94,6 +98,9 @@ void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& gr
   write_geotiff(folder / "dsm.tif",
                 raster::Raster<float>{
                     truth.dsm, where, {"surface height", "metre", raster::vertical_reference(crs), software, digest}});
+  write_geotiff(folder / "dtm.tif",
+                raster::Raster<float>{
+                    truth.dtm, where, {"ground height", "metre", raster::vertical_reference(crs), software, digest}});
   write_geotiff(folder / "ortho.tif", raster::Raster<Rgba8>{truth.ortho, where, {"colour", "", "", software, digest}});
   write_geotiff(folder / "views.tif",
                 raster::Raster<std::uint8_t>{truth.views, where, {"number of photographs", "", "", software, digest}});

@@ -4,6 +4,7 @@
 //   images/0001.jpg ...   photographs, sRGB
 //   poses.csv, sparse/    their poses, and as a COLMAP text model
 //   truth/dsm.tif         height of the highest surface at the centre of each cell
+//   truth/dtm.tif         height of the bare ground there, or of the water on it
 //   truth/ortho.tif       its colour, averaged over the cell: as in the photographs without noise and gain
 //   truth/views.tif       how many photographs see it
 //   scene.json            all parameters, resolved

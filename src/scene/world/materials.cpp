@@ -67,15 +67,22 @@ constexpr LinearRgb kAsphaltColor{0.115f, 0.115f, 0.12f}, kPavingColor{0.29f, 0.
 
 }  // namespace
 
-Materials::Materials(const Scene& scene, const std::optional<StreetPlan>& streets, const std::vector<SolidBox>& boxes)
+Materials::Materials(const Scene& scene, const Ground& ground, const std::optional<StreetPlan>& streets,
+                     const std::vector<SolidBox>& boxes)
     : streets_(streets),
       boxes_(boxes),
       seed_(static_cast<std::uint32_t>(mix64(scene.seed ^ 0x3a7e))),
       contrast_(static_cast<float>(scene.texture.contrast)),
-      per_finest_(1 / scene.finest_detail_m()) {}
+      per_finest_(1 / scene.finest_detail_m()),
+      cover_(scene, ground) {}
 
 LinearRgb Materials::reflectance(const SurfacePoint& point) const {
-  if (point.face == Face::ground) return ground({point.position.x, point.position.y});
+  if (point.face == Face::water) return cover_.water(point.position);
+  if (point.face == Face::ground) {
+    const Vec2d p{point.position.x, point.position.y};
+    if (cover_.replaces()) return cover_.replacement(p);
+    return cover_.bares() ? cover_.bared(ground(p), point.position, point.normal) : ground(p);
+  }
   const SolidBox& box = boxes_[static_cast<std::size_t>(point.box)];
   if (point.face == Face::wall) return wall(box, point);
   return top(box, box.local({point.position.x, point.position.y}));

@@ -7,21 +7,17 @@
 
 #include "core/vec.h"
 #include "scene/scene.h"
+#include "scene/world/ground_cover.h"
+#include "scene/world/linear_rgb.h"
 #include "scene/world/tracer.h"
 
 namespace skysweep::scene {
 
-// Linear light of red, green and blue.
-struct LinearRgb {
-  float r = 0, g = 0, b = 0;
-};
-inline LinearRgb operator*(float s, LinearRgb c) { return {s * c.r, s * c.g, s * c.b}; }
-inline LinearRgb operator+(LinearRgb a, LinearRgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-
 class Materials {
  public:
   // The references must outlive the object.
-  Materials(const Scene& scene, const std::optional<StreetPlan>& streets, const std::vector<SolidBox>& boxes);
+  Materials(const Scene& scene, const Ground& ground, const std::optional<StreetPlan>& streets,
+            const std::vector<SolidBox>& boxes);
 
   // Diffuse reflectance, 0 to 1. The point must be on a surface.
   LinearRgb reflectance(const SurfacePoint& point) const;
@@ -36,6 +32,7 @@ class Materials {
   std::uint32_t seed_;
   float contrast_;
   double per_finest_;  // 1 / size of the finest detail
+  GroundCover cover_;
 };
 
 }  // namespace skysweep::scene

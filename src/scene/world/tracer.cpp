@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "core/check.h"
@@ -119,7 +120,10 @@ Tracer::Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const B
   if (!embree_->device) throw failure("Embree cannot start on this machine");
   embree_->scene = rtcNewScene(embree_->device);
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
-  attach(embree_->device, embree_->scene, ground_mesh(ground, extent), kGroundId);
+  if (ground.plain())
+    attach(embree_->device, embree_->scene, ground_mesh(ground, extent), kGroundId);
+  else
+    ground_tracer_ = std::make_unique<GroundTracer>(ground, extent);
   if (!boxes.empty()) attach(embree_->device, embree_->scene, box_mesh(boxes), kBoxesId);
   rtcCommitScene(embree_->scene);
   if (const RTCError error = rtcGetDeviceError(embree_->device); error != RTC_ERROR_NONE)
@@ -182,6 +186,33 @@ void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
       if (face == 0) hit.position.z = box.z_high;
     }
   }
+  if (ground_tracer_) meet_shaped_ground(rays, count, hits);
+}
+
+void Tracer::meet_shaped_ground(const Ray* rays, int count, SurfacePoint* hits) const {
+  bool active[kBatch];
+  std::fill(active, active + count, true);
+  std::optional<GroundTracer::Hit> ground[kBatch];
+  ground_tracer_->first_hits(rays, active, count, std::numeric_limits<double>::infinity(), ground);
+  for (int i = 0; i < count; ++i) {
+    if (!ground[i]) continue;
+    const Ray& ray = rays[i];
+    SurfacePoint& hit = hits[i];
+    if (hit.face != Face::none &&
+        dot(hit.position - ray.origin, ray.direction) <= ground[i]->t * dot(ray.direction, ray.direction))
+      continue;
+    hit = {};
+    hit.position = ray.origin + ground[i]->t * ray.direction;
+    if (ground[i]->water) {
+      hit.face = Face::water;
+      hit.position.z = *ground_.water_level_m();
+      hit.normal = {0, 0, 1};
+    } else {
+      hit.face = Face::ground;
+      const Vec2d slope = ground_.at({hit.position.x, hit.position.y}).slope;
+      hit.normal = normalized(Vec3d{-slope.x, -slope.y, 1});
+    }
+  }
 }
 
 void Tracer::blocked(const Ray* rays, const bool* active, int count, bool endless, bool* out) const {
@@ -212,6 +243,12 @@ void Tracer::blocked(const Ray* rays, const bool* active, int count, bool endles
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded16(valid, embree_->scene, &context, &packet);
   for (int i = 0; i < count; ++i) out[i] = active[i] && packet.tfar[i] < 0;
+  if (!ground_tracer_) return;
+  bool open[kBatch];
+  for (int i = 0; i < count; ++i) open[i] = active[i] && !out[i];
+  std::optional<GroundTracer::Hit> ground[kBatch];
+  ground_tracer_->first_hits(rays, open, count, endless ? std::numeric_limits<double>::infinity() : 1.0, ground);
+  for (int i = 0; i < count; ++i) out[i] = out[i] || (open[i] && ground[i]);
 }
 
 }  // namespace skysweep::scene

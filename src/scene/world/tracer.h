@@ -9,16 +9,13 @@
 #include "core/box.h"
 #include "core/vec.h"
 #include "scene/world/ground.h"
+#include "scene/world/ray.h"
+#include "scene/world/terrain/ground_tracer.h"
 #include "scene/world/town.h"
 
 namespace skysweep::scene {
 
-struct Ray {
-  Vec3d origin;
-  Vec3d direction;  // of any length but zero
-};
-
-enum class Face { none, ground, top, wall };
+enum class Face { none, ground, top, wall, water };
 
 struct SurfacePoint {
   Face face = Face::none;
@@ -30,7 +27,7 @@ struct SurfacePoint {
 // Immutable after construction: safe to share between threads.
 class Tracer {
  public:
-  static constexpr int kBatch = 16;  // rays that are traced together
+  static constexpr int kBatch = kRayBatch;
 
   // `ground` and `boxes` must outlive the tracer. Ground is there on `extent` only.
   Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const Box2d& extent);
@@ -47,9 +44,13 @@ class Tracer {
 
  private:
   struct Embree;
+  // Puts the ground (or water) into the place of what lies behind it.
+  void meet_shaped_ground(const Ray* rays, int count, SurfacePoint* hits) const;
+
   const Ground& ground_;
   const std::vector<SolidBox>& boxes_;
   std::unique_ptr<Embree> embree_;
+  std::unique_ptr<GroundTracer> ground_tracer_;  // of ground that is not plain; without it the ground is in embree_
 };
 
 }  // namespace skysweep::scene

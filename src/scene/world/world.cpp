@@ -36,15 +36,15 @@ Box2d with_surroundings(const Scene& scene, const Box2d& visible) {
 }  // namespace
 
 World::World(const Scene& scene, const Box2d& visible)
-    : ground_(scene.terrain, scene.seed),
+    : ground_(scene),
       streets_(plan_streets(scene)),
       boxes_(build_boxes(scene, ground_, streets_, with_surroundings(scene, visible))),
       tracer_(ground_, boxes_, with_surroundings(scene, visible)),
-      materials_(scene, streets_, boxes_),
+      materials_(scene, ground_, streets_, boxes_),
       towards_sun_(direction_to_sun(scene.light)),
       shadows_(scene.light.shadows),
-      lowest_m_(-0.5 * scene.terrain.relief_m),
-      highest_m_(0.5 * scene.terrain.relief_m) {
+      lowest_m_(ground_.heights(with_surroundings(scene, visible)).lowest),
+      highest_m_(ground_.heights(with_surroundings(scene, visible)).highest) {
   for (const SolidBox& box : boxes_) highest_m_ = std::max(highest_m_, box.z_high);
 }
 

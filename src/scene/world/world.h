@@ -26,6 +26,8 @@ class World {
   // Heights between which all surfaces lie.
   double lowest_m() const { return lowest_m_; }
   double highest_m() const { return highest_m_; }
+  // Of the bare ground, or of the water that stands on it.
+  double ground_m(Vec2d p) const { return ground_.surface_m(p); }
 
   // Light that comes back along each of `count` <= Tracer::kBatch rays (1: white, lit like level ground in the sun),
   // and what they hit first.
