@@ -1,97 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_file.h"
 
-#include <limits>
 #include <optional>
-#include <sstream>
 
 #include "camera/pose.h"
 #include "core/error.h"
+#include "scene/file/read_objects.h"
+#include "scene/file/read_values.h"
 #include "settings/toml_table.h"
 
 namespace skysweep::scene {
 namespace {
 
-using settings::TomlTable;
-
-constexpr double kAny = std::numeric_limits<double>::infinity();
-constexpr double kTiny = 1e-6;  // lower limit of what has to be above zero
-
-// Replaces `value` by that of the key, if it is there; refuses it outside [low, high].
-void read(const TomlTable& table, const std::string& key, double& value, double low = -kAny, double high = kAny) {
-  const std::optional<double> found = table.number(key);
-  if (!found) return;
-  if (*found < low || *found > high) {
-    std::ostringstream range;
-    if (low == kTiny && high == kAny)
-      range << "must be above 0";
-    else if (high == kAny)
-      range << "must be at least " << low;
-    else
-      range << "must lie between " << low << " and " << high;
-    throw usage_error(table.where(key) + " " + range.str());
-  }
-  value = *found;
-}
-
-void read(const TomlTable& table, const std::string& key, int& value, int low, int high) {
-  const std::optional<long long> found = table.integer(key);
-  if (!found) return;
-  if (*found < low || *found > high)
-    throw usage_error(table.where(key) + " must lie between " + std::to_string(low) + " and " + std::to_string(high));
-  value = static_cast<int>(*found);
-}
-
-// Exactly `count` numbers, or nothing if the key is absent.
-std::optional<std::vector<double>> read_numbers(const TomlTable& table, const std::string& key, std::size_t count) {
-  std::optional<std::vector<double>> found = table.numbers(key);
-  if (found && found->size() != count)
-    throw usage_error(table.where(key) + " must be a list of " + std::to_string(count) + " numbers");
-  return found;
-}
-
-void read_size(const TomlTable& table, const std::string& key, Vec2d& value) {
-  const auto found = read_numbers(table, key, 2);
-  if (!found) return;
-  value = {(*found)[0], (*found)[1]};
-  if (!(value.x > 0 && value.y > 0)) throw usage_error(table.where(key) + " must be two numbers above 0");
-}
-
-template <typename T>
-T required(std::optional<T> value, const std::string& what, const std::string& file) {
-  if (!value) throw usage_error(file + ": " + what + " is missing");
-  return *value;
-}
-
 Terrain read_terrain(const TomlTable& table) {
   Terrain out;
   read(table, "relief_m", out.relief_m, 0);
   read(table, "wavelength_m", out.wavelength_m, kTiny);
-  return out;
-}
-
-Town read_town(const TomlTable& table) {
-  Town out;
-  read(table, "block_m", out.block_m, 8);
-  read(table, "street_m", out.street_m, 1);
-  read(table, "heading_deg", out.heading_deg, -360, 360);
-  read(table, "min_height_m", out.min_height_m, kTiny);
-  read(table, "max_height_m", out.max_height_m, kTiny);
-  if (out.max_height_m < out.min_height_m)
-    throw usage_error(table.where("max_height_m") + " must not be below min_height_m");
-  read(table, "roof_units", out.roof_units, 0, 100);
-  read(table, "cars_per_100m", out.cars_per_100m, 0, 100. / 6);
-  return out;
-}
-
-Building read_building(const TomlTable& table, const std::string& file) {
-  Building out;
-  const auto center = required(read_numbers(table, "center", 2), "center = [x, y] of a building", file);
-  out.center = {center[0], center[1]};
-  required(table.numbers("size_m"), "size_m = [x, y] of a building", file);
-  read_size(table, "size_m", out.size_m);
-  read(table, "heading_deg", out.heading_deg, -360, 360);
-  out.roof_z_m = required(table.number("roof_z_m"), "roof_z_m of a building", file);
   return out;
 }
 
@@ -164,6 +88,7 @@ Scene scene_from(const TomlTable& file, const std::string& name) {
   if (const auto table = file.table("terrain")) out.terrain = read_terrain(*table);
   if (const auto table = file.table("town")) out.town = read_town(*table);
   for (const TomlTable& table : file.tables("building")) out.buildings.push_back(read_building(table, name));
+  out.things = read_things(file, name);
   if (const auto table = file.table("texture")) out.texture = read_texture(*table);
   if (const auto table = file.table("light")) out.light = read_light(*table);
   out.camera = read_camera(required(file.table("camera"), "the table [camera]", name), name);

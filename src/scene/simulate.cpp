@@ -17,6 +17,7 @@
 #include "raster/digest.h"
 #include "raster/photo.h"
 #include "scene/flight_plan.h"
+#include "scene/render/class_map.h"
 #include "scene/render/photograph.h"
 #include "scene/render/truth.h"
 #include "scene/scene_file.h"
@@ -46,7 +47,7 @@ void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses,
   if (std::max(visible.width(), visible.height()) > kMostVisible_m)
     throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
   double highest = 0.5 * scene.terrain.relief_m;
-  if (scene.town) highest += scene.town->max_height_m;
+  highest += tallest_object_m(scene);
   for (const Building& building : scene.buildings) highest = std::max(highest, building.roof_z_m);
   for (const camera::Pose& pose : poses)
     if (pose.center.z <= highest)
@@ -97,6 +98,8 @@ void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& gr
   write_geotiff(folder / "ortho.tif", raster::Raster<Rgba8>{truth.ortho, where, {"colour", "", "", software, digest}});
   write_geotiff(folder / "views.tif",
                 raster::Raster<std::uint8_t>{truth.views, where, {"number of photographs", "", "", software, digest}});
+  write_geotiff(folder / "classes.tif",
+                raster::Raster<std::uint8_t>{truth.classes, where, {kClassesContent, "", "", software, digest}});
 }
 
 }  // namespace
@@ -128,7 +131,7 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
     report(static_cast<int>(cameras.size()));
   }
   const TruthGrid grid = truth_grid(scene);
-  write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
+  write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, scene.facade_edge_reach_m(), executor), options.software,
               folder / "truth");
   report(total);
   return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};

@@ -6,6 +6,7 @@
 //   truth/dsm.tif         height of the highest surface at the centre of each cell
 //   truth/ortho.tif       its colour, averaged over the cell: as in the photographs without noise and gain
 //   truth/views.tif       how many photographs see it
+//   truth/classes.tif     what it is: ground, roof, facade edge, tree, water, thin (docs/formats.md)
 //   scene.json            all parameters, resolved
 #pragma once
 

@@ -67,16 +67,18 @@ constexpr LinearRgb kAsphaltColor{0.115f, 0.115f, 0.12f}, kPavingColor{0.29f, 0.
 
 }  // namespace
 
-Materials::Materials(const Scene& scene, const std::optional<StreetPlan>& streets, const std::vector<SolidBox>& boxes)
+Materials::Materials(const Scene& scene, const std::optional<StreetPlan>& streets, const Solids& solids)
     : streets_(streets),
-      boxes_(boxes),
+      solids_(solids),
       seed_(static_cast<std::uint32_t>(mix64(scene.seed ^ 0x3a7e))),
       contrast_(static_cast<float>(scene.texture.contrast)),
       per_finest_(1 / scene.finest_detail_m()) {}
 
 LinearRgb Materials::reflectance(const SurfacePoint& point) const {
   if (point.face == Face::ground) return ground({point.position.x, point.position.y});
-  const SolidBox& box = boxes_[static_cast<std::size_t>(point.box)];
+  if (point.face == Face::leaf) return leaf(point);
+  if (point.facet >= 0) return facet(point);
+  const SolidBox& box = solids_.boxes[static_cast<std::size_t>(point.box)];
   if (point.face == Face::wall) return wall(box, point);
   return top(box, box.local({point.position.x, point.position.y}));
 }

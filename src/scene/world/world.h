@@ -9,6 +9,8 @@
 #include "scene/scene.h"
 #include "scene/world/ground.h"
 #include "scene/world/materials.h"
+#include "scene/world/solids.h"
+#include "scene/world/surface_class.h"
 #include "scene/world/town.h"
 #include "scene/world/tracer.h"
 
@@ -27,6 +29,9 @@ class World {
   double lowest_m() const { return lowest_m_; }
   double highest_m() const { return highest_m_; }
 
+  const Solids& solids() const { return solids_; }
+  SurfaceClass surface_class(const SurfacePoint& point) const { return class_of(point, solids_); }
+
   // Light that comes back along each of `count` <= Tracer::kBatch rays (1: white, lit like level ground in the sun),
   // and what they hit first.
   void look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const;
@@ -34,7 +39,7 @@ class World {
  private:
   Ground ground_;
   std::optional<StreetPlan> streets_;
-  std::vector<SolidBox> boxes_;
+  Solids solids_;
   Tracer tracer_;
   Materials materials_;
   Vec3d towards_sun_;
