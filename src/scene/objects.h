@@ -25,7 +25,7 @@ struct Building {
   double heading_deg = 0;  // turned clockwise
   double roof_z_m = 0;     // highest place of the roof, in the scene's frame, not above ground
   RoofKind roof = RoofKind::flat;
-  double eaves_z_m = 0;               // lowest place of a roof that is not flat
+  double eaves_z_m = 0;                // lowest place of a roof that is not flat
   std::optional<Vec2d> courtyard_m{};  // sides of a hole in the middle; flat and gable only
 };
 
@@ -40,14 +40,14 @@ struct Town {
   double roof_units = 1.5;   // mean number of small boxes (lift houses, chimneys) on a roof
   double cars_per_100m = 5;  // parked along each side of a street
 
-  double block_depth_m = 0;        // other side of a block; 0: as block_m
-  double alley_m = 0;              // between the buildings of a block, which then fill their lots; 0: free setbacks
-  double gable_share = 0;          // of the buildings whose eaves are not above pitched_up_to_m
-  double hip_share = 0;            // likewise
-  double shed_share = 0;           // likewise
-  double pitched_up_to_m = 12;     // highest eaves of roofs that are not flat
-  double courtyard_share = 0;      // of the buildings large enough for one
-  double trees_per_block = 0;      // mean number, wherever a block has room for them
+  double block_depth_m = 0;     // other side of a block; 0: as block_m
+  double alley_m = 0;           // between the buildings of a block, which then fill their lots; 0: free setbacks
+  double gable_share = 0;       // of the buildings whose eaves are not above pitched_up_to_m
+  double hip_share = 0;         // likewise
+  double shed_share = 0;        // likewise
+  double pitched_up_to_m = 12;  // highest eaves of roofs that are not flat
+  double courtyard_share = 0;   // of the buildings large enough for one
+  double trees_per_block = 0;   // mean number, wherever a block has room for them
 };
 
 enum class CrownShape { ellipsoid, cone, column };
@@ -65,7 +65,7 @@ struct Forest {
   double min_height_m = 8;
   double max_height_m = 18;
   std::vector<CrownShape> shapes{CrownShape::ellipsoid, CrownShape::cone, CrownShape::column};  // equally often
-  std::optional<Box2d> area{};  // absent: everywhere
+  std::optional<Box2d> area{};                                                                  // absent: everywhere
 };
 
 // A free-standing wall whose top follows the ground.
@@ -77,11 +77,11 @@ struct FreeWall {
 
 // A level deck with free space below it, and a ramp at each end.
 struct Bridge {
-  Vec2d from, to;           // ends of the deck, on its middle line
+  Vec2d from, to;  // ends of the deck, on its middle line
   double width_m = 8;
-  double deck_z_m = 0;      // upper side, in the scene's frame
+  double deck_z_m = 0;  // upper side, in the scene's frame
   double thickness_m = 1;
-  double ramp_m = 0;        // length of each ramp, from deck to ground; 0: none
+  double ramp_m = 0;  // length of each ramp, from deck to ground; 0: none
 };
 
 struct Mast {

@@ -82,7 +82,7 @@ struct Scene {
   // Defaults that depend on other members, resolved.
   double finest_detail_m() const;
   double truth_cell_m() const;
-  double facade_edge_reach_m() const { return 8 * flight.gsd_m; }  // of the class map: 0.4 m at 5 cm
+  double facade_edge_reach_m() const { return 8 * flight.gsd_m; }         // of the class map: 0.4 m at 5 cm
   double altitude_m() const { return flight.gsd_m * camera.focal_px(); }  // above z = 0
 };
 

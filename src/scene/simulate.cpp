@@ -131,8 +131,8 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
     report(static_cast<int>(cameras.size()));
   }
   const TruthGrid grid = truth_grid(scene);
-  write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, scene.facade_edge_reach_m(), executor), options.software,
-              folder / "truth");
+  write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, scene.facade_edge_reach_m(), executor),
+              options.software, folder / "truth");
   report(total);
   return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};
 }

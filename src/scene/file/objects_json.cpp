@@ -58,8 +58,8 @@ Json json_of(const FreeWall& w) {
   return {{"from", pair(w.from)}, {"to", pair(w.to)}, {"height_m", w.height_m}, {"thickness_m", w.thickness_m}};
 }
 Json json_of(const Bridge& b) {
-  return {{"from", pair(b.from)},   {"to", pair(b.to)},           {"width_m", b.width_m},
-          {"deck_z_m", b.deck_z_m}, {"thickness_m", b.thickness_m}, {"ramp_m", b.ramp_m}};
+  return {{"from", pair(b.from)},         {"to", pair(b.to)},  {"width_m", b.width_m}, {"deck_z_m", b.deck_z_m},
+          {"thickness_m", b.thickness_m}, {"ramp_m", b.ramp_m}};
 }
 Json json_of(const Mast& m) {
   return {{"position", pair(m.position)}, {"height_m", m.height_m}, {"width_m", m.width_m}};

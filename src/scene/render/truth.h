@@ -27,9 +27,9 @@ struct TruthGrid {
 TruthGrid truth_grid(const Scene& scene);
 
 struct TruthLayers {
-  Array2d<float> dsm;           // highest surface at the cell's centre, world height, metres
-  Array2d<Rgba8> ortho;         // colour seen from above, averaged over the cell
-  Array2d<std::uint8_t> views;  // photographs that see the surface at the cell's centre (at most 255)
+  Array2d<float> dsm;             // highest surface at the cell's centre, world height, metres
+  Array2d<Rgba8> ortho;           // colour seen from above, averaged over the cell
+  Array2d<std::uint8_t> views;    // photographs that see the surface at the cell's centre (at most 255)
   Array2d<std::uint8_t> classes;  // SurfaceClass, facade edges marked (render/class_map.h)
 };
 

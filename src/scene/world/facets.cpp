@@ -2,6 +2,7 @@
 #include "scene/world/facets.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/check.h"
 
@@ -14,7 +15,10 @@ Vec3d plane_normal(const std::vector<Vec3d>& corners) {
   for (std::size_t i = 0; i < corners.size(); ++i)
     sum = sum + cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
   if (sum.x == 0 && sum.y == 0) return {0, 0, sum.z > 0 ? 1.0 : -1.0};
-  return normalized(sum);
+  Vec3d normal = normalized(sum);
+  constexpr double kRounding = 1e-12;
+  if (std::abs(normal.z) < kRounding) normal.z = 0;  // upright
+  return normal;
 }
 
 }  // namespace

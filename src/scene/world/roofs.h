@@ -17,8 +17,8 @@ namespace skysweep::scene {
 struct RoofedBuilding {
   SolidBox walls;  // z_high: the eaves
   RoofKind roof = RoofKind::gable;
-  double ridge_z = 0;                      // not used by a flat roof
-  std::optional<Vec2d> courtyard_half{};   // half sides of the hole; flat and gable only
+  double ridge_z = 0;                     // not used by a flat roof
+  std::optional<Vec2d> courtyard_half{};  // half sides of the hole; flat and gable only
 };
 void add_building(Facets& facets, const RoofedBuilding& building);
 

@@ -24,7 +24,8 @@ void add_buildings(const Scene& scene, const Ground& ground, Solids& solids) {
     box.half = 0.5 * building.size_m;
     box.z_high = level ? building.roof_z_m : building.eaves_z_m;
     box.z_low = std::min(foundation_z(box, ground), box.z_high - 0.01);
-    box.seed = static_cast<std::uint32_t>(mix64(scene.seed + static_cast<std::uint64_t>(&building - &scene.buildings[0])));
+    box.seed =
+        static_cast<std::uint32_t>(mix64(scene.seed + static_cast<std::uint64_t>(&building - &scene.buildings[0])));
     if (level && !building.courtyard_m) {
       solids.boxes.push_back(box);
       continue;

@@ -74,10 +74,10 @@ void add_bridge(Facets& facets, const Bridge& bridge, const Ground& ground) {
   const auto add_ramp = [&](Vec2d deck_end, Vec2d outwards) {
     const Vec2d foot = deck_end + bridge.ramp_m * outwards;
     const double foot_z = ground.at(foot).z, below = ground.at(deck_end).z - kFoundation_m;
-    add_beam(facets,
-             {deck_end, foot, bridge.width_m, top, foot_z, std::min(below, top - kFoundation_m),
-              foot_z - kFoundation_m},
-             facets.add_body(body_along(BodyKind::bridge, deck_end, foot, top)));
+    add_beam(
+        facets,
+        {deck_end, foot, bridge.width_m, top, foot_z, std::min(below, top - kFoundation_m), foot_z - kFoundation_m},
+        facets.add_body(body_along(BodyKind::bridge, deck_end, foot, top)));
   };
   add_ramp(bridge.from, -1.0 * along);
   add_ramp(bridge.to, along);

@@ -99,8 +99,8 @@ class BlockBuilder {
     shape.courtyard_half = draw_courtyard(house, shape.roof);
     if (shape.roof != RoofKind::flat) {
       constexpr double kHighestRise = 6;
-      const double wing = shape.courtyard_half ? 0.5 * (house.half.x - shape.courtyard_half->x)
-                                               : std::min(house.half.x, house.half.y);
+      const double wing =
+          shape.courtyard_half ? 0.5 * (house.half.x - shape.courtyard_half->x) : std::min(house.half.x, house.half.y);
       const double slope = extras_.uniform(0.5, 0.9) * (shape.roof == RoofKind::shed ? 0.5 : 1);
       shape.ridge_z = house.z_high + std::min(kHighestRise, slope * wing);
       if (shape.walls.seed % 3 == 0) ++shape.walls.seed;  // gravel would not stay on it: tiles

@@ -46,6 +46,7 @@ struct Solids;
 
 // Adds the blocks whose centre lies in `extent`. A block looks the same however large the extent is. No buildings stand
 // on the blocks whose centre lies in the scene's forest.
-void build_town(const Scene& scene, const StreetPlan& streets, const Ground& ground, const Box2d& extent, Solids& solids);
+void build_town(const Scene& scene, const StreetPlan& streets, const Ground& ground, const Box2d& extent,
+                Solids& solids);
 
 }  // namespace skysweep::scene

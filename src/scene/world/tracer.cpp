@@ -115,7 +115,7 @@ struct Tracer::Embree {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::array<RTCScene, kTreePrototypes> prototypes{};
-  // Embree 3.13's traversal for coherent packets never returns from some shadow rays through instances.
+  // With instances: incoherent. Embree 3.13.5's other traversal never returns from some packets of shadow rays there.
   RTCIntersectContextFlags traversal = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   ~Embree() {
     rtcReleaseScene(scene);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays against ground, boxes, facets and trees. Embree finds in single precision what is hit; where, is then computed in
-// double from the closed form of the ground or the plane of the face, facet or leaf, so that the truth does not depend
-// on Embree's precision or the mesh.
+// Rays against ground, boxes, facets and trees. Embree finds in single precision what is hit; where, is then computed
+// in double from the closed form of the ground or the plane of the face, facet or leaf, so that the truth does not
+// depend on Embree's precision or the mesh.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ enum class Face { none, ground, top, wall, leaf };  // top and wall: of a box or
 
 struct SurfacePoint {
   Face face = Face::none;
-  int box = -1;             // index of the box hit, or -1
-  int facet = -1;           // of the facet
+  int box = -1;              // index of the box hit, or -1
+  int facet = -1;            // of the facet
   int tree = -1, leaf = -1;  // of the tree, and of the leaf of its prototype
   Vec3d position;
   Vec3d normal;  // unit, outwards

@@ -11,9 +11,9 @@ namespace skysweep::scene {
 namespace {
 
 constexpr std::uint64_t kTreeStream = 0x72ee;
-constexpr int kLeaves = 5000, kBoughs = 60;
-constexpr double kHalfLeaf = 0.034;      // half side of a leaf, crown radii
-constexpr double kBoughRadius = 0.30;    // of the ball of leaves around the tip of a bough, crown radii
+constexpr int kLeaves = 11000, kBoughs = 70;
+constexpr double kHalfLeaf = 0.019;      // half side of a leaf, crown radii
+constexpr double kBoughRadius = 0.26;    // of the ball of leaves around the tip of a bough, crown radii
 constexpr double kRadiusToHeight = 0.3;  // shape of a typical tree: makes balls of the boughs, squares of the leaves
 
 double crown_base(CrownShape shape) {
@@ -33,9 +33,7 @@ Vec3d random_direction(Random& random) {
 // From lengths in crown radii to the frame of the prototype.
 Vec3d flattened(Vec3d v) { return {v.x, v.y, kRadiusToHeight * v.z}; }
 
-bool within_crown(CrownShape shape, Vec3d p) {
-  return std::sqrt(p.x * p.x + p.y * p.y) <= crown_radius(shape, p.z);
-}
+bool within_crown(CrownShape shape, Vec3d p) { return std::sqrt(p.x * p.x + p.y * p.y) <= crown_radius(shape, p.z); }
 
 // Tips of boughs: evenly over the height where the crown is wide, more of them outside than inside.
 Vec3d bough_tip(CrownShape shape, Random& random) {
@@ -43,19 +41,21 @@ Vec3d bough_tip(CrownShape shape, Random& random) {
     const double z = random.uniform(crown_base(shape), 1);
     const double radius = crown_radius(shape, z);
     if (random.uniform() > radius + 0.05) continue;
-    const double r = radius * std::sqrt(random.uniform(0.15, 0.95)), angle = random.uniform(0, 2 * std::numbers::pi);
+    const double r = radius * std::sqrt(random.uniform(0.02, 0.95)), angle = random.uniform(0, 2 * std::numbers::pi);
     return {r * std::cos(angle), r * std::sin(angle), z};
   }
 }
 
+// Four sides that taper towards the middle of the crown.
 void add_trunk(CrownShape shape, std::vector<Leaf>& leaves) {
-  constexpr double kHalf = 0.06, kBelowGround = -0.1;
+  constexpr double kHalf = 0.05, kHalfAtTop = 0.008, kBelowGround = -0.1;
   const double top = 0.5 * (crown_base(shape) + 1);
-  constexpr std::array<Vec2d, 4> kCorners = {{{-kHalf, -kHalf}, {kHalf, -kHalf}, {kHalf, kHalf}, {-kHalf, kHalf}}};
+  constexpr std::array<Vec2d, 4> kCorners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vec2d a = kCorners[k], b = kCorners[(k + 1) % 4];
+    const Vec2d a = kHalf * kCorners[k], b = kHalf * kCorners[(k + 1) % 4];
+    const Vec2d c = kHalfAtTop * kCorners[(k + 1) % 4], d = kHalfAtTop * kCorners[k];
     leaves.push_back(
-        {{Vec3d{a.x, a.y, kBelowGround}, {b.x, b.y, kBelowGround}, {b.x, b.y, top}, {a.x, a.y, top}}, true});
+        {{Vec3d{a.x, a.y, kBelowGround}, {b.x, b.y, kBelowGround}, {c.x, c.y, top}, {d.x, d.y, top}}, true});
   }
 }
 
@@ -88,8 +88,8 @@ std::vector<Leaf> make_tree(int prototype) {
     const Vec3d normal = normalized(outwards + Vec3d{0, 0, 0.4} + 0.7 * random_direction(random));
     const Vec3d across = normalized(cross(normal, std::abs(normal.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
     const Vec3d s = kHalfLeaf * across, t = kHalfLeaf * cross(normal, across);
-    const Leaf leaf{{middle + flattened(-s - t), middle + flattened(s - t), middle + flattened(s + t),
-                     middle + flattened(t - s)}};
+    const Leaf leaf{
+        {middle + flattened(-s - t), middle + flattened(s - t), middle + flattened(s + t), middle + flattened(t - s)}};
     if (std::all_of(leaf.corner.begin(), leaf.corner.end(), [&](Vec3d p) { return within_crown(shape, p); }))
       leaves.push_back(leaf);
   }
