@@ -49,14 +49,17 @@ class BlockBuilder {
   }
 
   void add_buildings() {
-    const int lots_x = 1 + random_.below(2), lots_y = 1 + random_.below(2);
+    int lots_x = 1 + random_.below(2);
+    const int lots_y = 1 + random_.below(2);
+    const bool dense = town_.alley_m > 0;
+    if (dense) lots_x = 2;
     const Vec2d lot{block_.x / lots_x, block_.y / lots_y};
     for (int j = 0; j < lots_y; ++j)
       for (int i = 0; i < lots_x; ++i) {
         const Vec2d lot_center{(i + 0.5) * lot.x - 0.5 * block_.x, (j + 0.5) * lot.y - 0.5 * block_.y};
-        constexpr double kEmptyLots = 0.12;
-        if (random_.uniform() < kEmptyLots) continue;
-        if (town_.alley_m > 0)
+        constexpr double kEmptyLots = 0.12, kEmptyLotsIfDense = 0.04;
+        if (random_.uniform() < (dense ? kEmptyLotsIfDense : kEmptyLots)) continue;
+        if (dense)
           add_along_alleys(lot_center, lot, {1.0 * i / std::max(1, lots_x - 1), 1.0 * j / std::max(1, lots_y - 1)},
                            {lots_x > 1, lots_y > 1});
         else
