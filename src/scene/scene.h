@@ -15,28 +15,10 @@
 
 #include "camera/camera_model.h"
 #include "core/vec.h"
+#include "scene/objects.h"
 #include "scene/terrain.h"
 
 namespace skysweep::scene {
-
-// Blocks of buildings between streets, everywhere on the ground. Buildings are boxes with level roofs.
-struct Town {
-  double block_m = 34;      // side of a block between streets
-  double street_m = 11;     // width of a street, pavements included
-  double heading_deg = 0;   // streets turned clockwise from north
-  double min_height_m = 4;  // of a building above the ground at its centre
-  double max_height_m = 20;
-  double roof_units = 1.5;   // mean number of small boxes (lift houses, chimneys) on a roof
-  double cars_per_100m = 5;  // parked along each side of a street
-};
-
-// A single building, for scenes whose truth can be told by hand.
-struct Building {
-  Vec2d center;            // in the scene's frame
-  Vec2d size_m;            // sides; x before turning by the heading
-  double heading_deg = 0;  // turned clockwise
-  double roof_z_m = 0;     // height of the roof in the scene's frame, not above ground
-};
 
 // What covers the ground.
 enum class GroundTexture {
@@ -97,6 +79,7 @@ struct Scene {
   Terrain terrain;
   std::optional<Town> town;
   std::vector<Building> buildings;
+  Things things;
   Texture texture;
   Light light;
   camera::CameraModel camera;
@@ -107,6 +90,7 @@ struct Scene {
   // Defaults that depend on other members, resolved.
   double finest_detail_m() const;
   double truth_cell_m() const;
+  double facade_edge_reach_m() const { return 8 * flight.gsd_m; }         // of the class map: 0.4 m at 5 cm
   double altitude_m() const { return flight.gsd_m * camera.focal_px(); }  // above z = 0
 };
 

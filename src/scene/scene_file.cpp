@@ -5,37 +5,13 @@
 
 #include "camera/pose.h"
 #include "core/error.h"
+#include "scene/file/read_objects.h"
 #include "scene/file/read_terrain.h"
 #include "scene/file/read_values.h"
 #include "settings/toml_table.h"
 
 namespace skysweep::scene {
 namespace {
-
-Town read_town(const TomlTable& table) {
-  Town out;
-  read(table, "block_m", out.block_m, 8);
-  read(table, "street_m", out.street_m, 1);
-  read(table, "heading_deg", out.heading_deg, -360, 360);
-  read(table, "min_height_m", out.min_height_m, kTiny);
-  read(table, "max_height_m", out.max_height_m, kTiny);
-  if (out.max_height_m < out.min_height_m)
-    throw usage_error(table.where("max_height_m") + " must not be below min_height_m");
-  read(table, "roof_units", out.roof_units, 0, 100);
-  read(table, "cars_per_100m", out.cars_per_100m, 0, 100. / 6);
-  return out;
-}
-
-Building read_building(const TomlTable& table, const std::string& file) {
-  Building out;
-  const auto center = required(read_numbers(table, "center", 2), "center = [x, y] of a building", file);
-  out.center = {center[0], center[1]};
-  required(table.numbers("size_m"), "size_m = [x, y] of a building", file);
-  read_size(table, "size_m", out.size_m);
-  read(table, "heading_deg", out.heading_deg, -360, 360);
-  out.roof_z_m = required(table.number("roof_z_m"), "roof_z_m of a building", file);
-  return out;
-}
 
 Light read_light(const TomlTable& table) {
   Light out;
@@ -99,6 +75,7 @@ Scene scene_from(const TomlTable& file, const std::string& name) {
   if (const auto table = file.table("terrain")) out.terrain = read_terrain(*table, out.area_m);
   if (const auto table = file.table("town")) out.town = read_town(*table);
   for (const TomlTable& table : file.tables("building")) out.buildings.push_back(read_building(table, name));
+  out.things = read_things(file, name);
   if (const auto table = file.table("texture")) out.texture = read_texture(*table);
   if (const auto table = file.table("light")) out.light = read_light(*table);
   out.camera = read_camera(required(file.table("camera"), "the table [camera]", name), name);

@@ -2,7 +2,8 @@
 // Scenes as TOML files; config/scenes/ holds examples. The keys are the members of the structs in scene/scene.h:
 //
 //   seed, origin = [x, y, z], crs, area_m = [width, height]
-//   [terrain] [[terrain.modification]] [town] [[building]] [texture] [light] [camera] [flight] [photographs] [truth]
+//   [terrain] [[terrain.modification]] [town] [[building]] [[tree]] [forest] [[wall]] [[bridge]] [[mast]]
+//   [[power_line]] [texture] [light] [camera] [flight] [photographs] [truth]
 //
 // [terrain] kind and [texture] kind say which further keys these tables have: docs/scenes.md lists them. Files that a
 // scene names are relative to its own folder.

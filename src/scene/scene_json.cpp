@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "scene/file/objects_json.h"
 #include "scene/file/terrain_json.h"
 #include "scene/scene_file.h"
 
@@ -10,26 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json pair(Vec2d v) { return {v.x, v.y}; }
-
-Json town_json(const Town& town) {
-  return {{"block_m", town.block_m},
-          {"street_m", town.street_m},
-          {"heading_deg", town.heading_deg},
-          {"min_height_m", town.min_height_m},
-          {"max_height_m", town.max_height_m},
-          {"roof_units", town.roof_units},
-          {"cars_per_100m", town.cars_per_100m}};
-}
-
-Json buildings_json(const std::vector<Building>& buildings) {
-  Json out = Json::array();
-  for (const Building& b : buildings)
-    out.push_back({{"center", pair(b.center)},
-                   {"size_m", pair(b.size_m)},
-                   {"heading_deg", b.heading_deg},
-                   {"roof_z_m", b.roof_z_m}});
-  return out;
-}
 
 Json camera_json(const camera::CameraModel& c) {
   const camera::Distortion& d = c.distortion;
@@ -66,6 +47,7 @@ std::string scene_to_json(const Scene& scene) {
   out["terrain"] = terrain_json(scene.terrain);
   if (scene.town) out["town"] = town_json(*scene.town);
   if (!scene.buildings.empty()) out["building"] = buildings_json(scene.buildings);
+  add_things(scene.things, out);
   out["texture"] = texture_json(scene);
   out["light"] = {{"sun_azimuth_deg", scene.light.sun_azimuth_deg},
                   {"sun_elevation_deg", scene.light.sun_elevation_deg},

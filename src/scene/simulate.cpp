@@ -17,6 +17,7 @@
 #include "raster/digest.h"
 #include "raster/photo.h"
 #include "scene/flight_plan.h"
+#include "scene/render/class_map.h"
 #include "scene/render/photograph.h"
 #include "scene/render/truth.h"
 #include "scene/scene_file.h"
@@ -46,11 +47,12 @@ void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses,
   if (std::max(visible.width(), visible.height()) > kMostVisible_m)
     throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
   const Ground ground(scene);
+  const double objects = tallest_object_m(scene);
   for (const camera::Pose& pose : poses) {
     // Plain ground is bounded everywhere; on any other a flight may climb with it.
     const Vec2d below{pose.center.x, pose.center.y};
     double highest = ground.plain() ? 0.5 * scene.terrain.relief_m : ground.surface_m(below);
-    if (scene.town) highest += scene.town->max_height_m;
+    highest += objects;
     for (const Building& building : scene.buildings) highest = std::max(highest, building.roof_z_m);
     if (pose.center.z <= highest)
       throw usage_error("the flight is at " + std::to_string(std::lround(pose.center.z)) +
@@ -104,6 +106,8 @@ void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& gr
   write_geotiff(folder / "ortho.tif", raster::Raster<Rgba8>{truth.ortho, where, {"colour", "", "", software, digest}});
   write_geotiff(folder / "views.tif",
                 raster::Raster<std::uint8_t>{truth.views, where, {"number of photographs", "", "", software, digest}});
+  write_geotiff(folder / "classes.tif",
+                raster::Raster<std::uint8_t>{truth.classes, where, {kClassesContent, "", "", software, digest}});
 }
 
 }  // namespace
@@ -135,8 +139,8 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
     report(static_cast<int>(cameras.size()));
   }
   const TruthGrid grid = truth_grid(scene);
-  write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
-              folder / "truth");
+  write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, scene.facade_edge_reach_m(), executor),
+              options.software, folder / "truth");
   report(total);
   return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};
 }

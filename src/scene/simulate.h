@@ -7,6 +7,7 @@
 //   truth/dtm.tif         height of the bare ground there, or of the water on it
 //   truth/ortho.tif       its colour, averaged over the cell: as in the photographs without noise and gain
 //   truth/views.tif       how many photographs see it
+//   truth/classes.tif     what it is: ground, roof, facade edge, tree, water, thin (docs/formats.md)
 //   scene.json            all parameters, resolved
 #pragma once
 

@@ -133,8 +133,8 @@ TEST(GroundTracer, a_building_in_front_of_a_slope_is_met_first_and_behind_it_is_
   box.half = {2, 2};
   box.z_low = 0;
   box.z_high = 14;
-  const std::vector<SolidBox> boxes = {box};
-  const Tracer tracer(ground, boxes, kExtent);
+  const Solids solids{.boxes = {box}};
+  const Tracer tracer(ground, solids, kExtent);
   const auto face = [&](Vec3d from, Vec3d direction) {
     const Ray ray{from, direction};
     SurfacePoint hit;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr Box2d kExtent{{-100, -100}, {200, 200}};
 
+const Solids nothing;
+
 SolidBox turned_box() {
   SolidBox box;
   box.center = {40, 30};
@@ -49,7 +51,7 @@ TEST(Ground, stays_within_its_relief_and_its_slope_is_its_derivative) {
 
 TEST(Tracer, level_ground_is_exactly_at_zero) {
   const Ground ground({}, 1);
-  const Tracer tracer(ground, {}, kExtent);
+  const Tracer tracer(ground, nothing, kExtent);
   const SurfacePoint hit = trace(tracer, {{12.3, 45.6, 100}, {0.1, -0.2, -1}});
   EXPECT_EQ(hit.face, Face::ground);
   EXPECT_NEAR(hit.position.z, 0, 1e-12);
@@ -59,7 +61,7 @@ TEST(Tracer, level_ground_is_exactly_at_zero) {
 
 TEST(Tracer, rolling_ground_is_met_where_its_closed_form_is) {
   const Ground ground({5, 40}, 9);
-  const Tracer tracer(ground, {}, kExtent);
+  const Tracer tracer(ground, nothing, kExtent);
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const Vec3d direction{random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), -1};
@@ -71,35 +73,35 @@ TEST(Tracer, rolling_ground_is_met_where_its_closed_form_is) {
 
 TEST(Tracer, a_roof_is_exactly_at_its_height_and_walls_are_exactly_in_their_plane) {
   const Ground ground({3, 40}, 9);
-  const std::vector<SolidBox> boxes = {turned_box()};
-  const Tracer tracer(ground, boxes, kExtent);
+  const Solids solids{.boxes = {turned_box()}};
+  const Tracer tracer(ground, solids, kExtent);
   const SurfacePoint roof = trace(tracer, {{41, 31, 90}, {0, 0, -1}});
   EXPECT_EQ(roof.face, Face::top);
   EXPECT_EQ(roof.position.z, 12.34);
   // From each side, level with the middle of the wall.
   const Vec2d sides[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   for (const Vec2d side : sides) {
-    const Vec2d outwards = side.x * boxes[0].axis_u + side.y * boxes[0].axis_v();
-    const Vec2d start = boxes[0].center + 50.0 * outwards;
+    const Vec2d outwards = side.x * solids.boxes[0].axis_u + side.y * solids.boxes[0].axis_v();
+    const Vec2d start = solids.boxes[0].center + 50.0 * outwards;
     const SurfacePoint hit = trace(tracer, {{start.x, start.y, 6}, {-outwards.x, -outwards.y, 0}});
     ASSERT_EQ(hit.face, Face::wall);
     EXPECT_NEAR(dot(Vec2d{hit.normal.x, hit.normal.y}, outwards), 1, 1e-12);
     const double reach = side.x != 0 ? 8 : 5;
-    EXPECT_NEAR(dot(Vec2d{hit.position.x, hit.position.y} - boxes[0].center, outwards), reach, 1e-12);
+    EXPECT_NEAR(dot(Vec2d{hit.position.x, hit.position.y} - solids.boxes[0].center, outwards), reach, 1e-12);
   }
 }
 
 TEST(Tracer, beyond_the_ground_there_is_nothing) {
   const Ground ground({}, 1);
-  const Tracer tracer(ground, {}, kExtent);
+  const Tracer tracer(ground, nothing, kExtent);
   EXPECT_EQ(trace(tracer, {{0, 0, 100}, {1, 0, 0.1}}).face, Face::none);
   EXPECT_EQ(trace(tracer, {{500, 0, 100}, {0, 0, -1}}).face, Face::none);
 }
 
 TEST(Tracer, a_building_blocks_the_way_only_as_far_as_the_ray_goes) {
   const Ground ground({}, 1);
-  const std::vector<SolidBox> boxes = {turned_box()};
-  const Tracer tracer(ground, boxes, kExtent);
+  const Solids solids{.boxes = {turned_box()}};
+  const Tracer tracer(ground, solids, kExtent);
   const Ray rays[] = {{{40, 80, 5}, {0, -30, 0}},    // ends before the wall
                       {{40, 80, 5}, {0, -100, 0}},   // ends behind it
                       {{40, 80, 20}, {0, -100, 0}},  // passes above

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/render/class_map.h"
 #include "scene/render/encoding.h"
 
 namespace skysweep::scene {
@@ -69,9 +70,10 @@ TruthGrid truth_grid(const Scene& scene) {
 }
 
 TruthLayers make_truth(const World& world, const TruthGrid& grid, Vec3d origin,
-                       const std::vector<camera::Camera>& cameras, Executor& executor) {
+                       const std::vector<camera::Camera>& cameras, double facade_edge_reach_m, Executor& executor) {
   TruthLayers out{Array2d<float>(grid.width, grid.height), Array2d<float>(grid.width, grid.height),
-                  Array2d<Rgba8>(grid.width, grid.height), Array2d<std::uint8_t>(grid.width, grid.height)};
+                  Array2d<Rgba8>(grid.width, grid.height), Array2d<std::uint8_t>(grid.width, grid.height),
+                  Array2d<std::uint8_t>(grid.width, grid.height)};
   executor.parallel_for(grid.height, [&](int row) {
     for (int column = 0; column < grid.width; ++column) {
       const Vec2d center = grid.center(column, row, origin);
@@ -80,10 +82,12 @@ TruthLayers make_truth(const World& world, const TruthGrid& grid, Vec3d origin,
       world.tracer().first_hits(&down, 1, &surface);
       out.dsm(column, row) = static_cast<float>(surface.position.z + origin.z);
       out.dtm(column, row) = static_cast<float>(world.ground_m(center) + origin.z);
+      out.classes(column, row) = static_cast<std::uint8_t>(world.surface_class(surface));
       out.ortho(column, row) = color_of_cell(world, center, grid.cell_m);
       out.views(column, row) = static_cast<std::uint8_t>(std::min(255, count_views(world, surface, cameras)));
     }
   });
+  mark_facade_edges(out.dsm, grid.cell_m, facade_edge_reach_m, out.classes);
   return out;
 }
 

@@ -27,14 +27,15 @@ struct TruthGrid {
 TruthGrid truth_grid(const Scene& scene);
 
 struct TruthLayers {
-  Array2d<float> dsm;           // highest surface at the cell's centre, world height, metres
-  Array2d<float> dtm;           // bare ground there, or the water on it
-  Array2d<Rgba8> ortho;         // colour seen from above, averaged over the cell
-  Array2d<std::uint8_t> views;  // photographs that see the surface at the cell's centre (at most 255)
+  Array2d<float> dsm;             // highest surface at the cell's centre, world height, metres
+  Array2d<float> dtm;             // bare ground there, or the water on it
+  Array2d<Rgba8> ortho;           // colour seen from above, averaged over the cell
+  Array2d<std::uint8_t> views;    // photographs that see the surface at the cell's centre (at most 255)
+  Array2d<std::uint8_t> classes;  // SurfaceClass, facade edges marked (render/class_map.h)
 };
 
-// `cameras` in the scene's frame.
+// `cameras` in the scene's frame. `facade_edge_reach_m`: as mark_facade_edges has it.
 TruthLayers make_truth(const World& world, const TruthGrid& grid, Vec3d origin,
-                       const std::vector<camera::Camera>& cameras, Executor& executor);
+                       const std::vector<camera::Camera>& cameras, double facade_edge_reach_m, Executor& executor);
 
 }  // namespace skysweep::scene

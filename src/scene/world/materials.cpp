@@ -68,9 +68,9 @@ constexpr LinearRgb kAsphaltColor{0.115f, 0.115f, 0.12f}, kPavingColor{0.29f, 0.
 }  // namespace
 
 Materials::Materials(const Scene& scene, const Ground& ground, const std::optional<StreetPlan>& streets,
-                     const std::vector<SolidBox>& boxes)
+                     const Solids& solids)
     : streets_(streets),
-      boxes_(boxes),
+      solids_(solids),
       seed_(static_cast<std::uint32_t>(mix64(scene.seed ^ 0x3a7e))),
       contrast_(static_cast<float>(scene.texture.contrast)),
       per_finest_(1 / scene.finest_detail_m()),
@@ -83,7 +83,9 @@ LinearRgb Materials::reflectance(const SurfacePoint& point) const {
     if (cover_.replaces()) return cover_.replacement(p);
     return cover_.bares() ? cover_.bared(ground(p), point.position, point.normal) : ground(p);
   }
-  const SolidBox& box = boxes_[static_cast<std::size_t>(point.box)];
+  if (point.face == Face::leaf) return leaf(point);
+  if (point.facet >= 0) return facet(point);
+  const SolidBox& box = solids_.boxes[static_cast<std::size_t>(point.box)];
   if (point.face == Face::wall) return wall(box, point);
   return top(box, box.local({point.position.x, point.position.y}));
 }

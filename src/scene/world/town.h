@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands on the ground: boxes with level tops, and the plan of the streets between them.
+// A town: the plan of its streets, and the blocks of buildings, cars and trees between them.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/box.h"
 #include "core/vec.h"
@@ -12,20 +11,6 @@
 #include "scene/world/ground.h"
 
 namespace skysweep::scene {
-
-enum class BoxKind { building, roof_unit, car };
-
-struct SolidBox {
-  BoxKind kind = BoxKind::building;
-  Vec2d center;
-  Vec2d axis_u{1, 0};  // horizontal unit vector of side u; side v is turned left from it
-  Vec2d half;          // half sides along u and v
-  double z_low = 0, z_high = 0;
-  std::uint32_t seed = 0;  // of its looks
-
-  Vec2d axis_v() const { return {-axis_u.y, axis_u.x}; }
-  Vec2d local(Vec2d p) const { return {dot(p - center, axis_u), dot(p - center, axis_v())}; }
-};
 
 // The regular grid of streets, in a frame turned by the town's heading about the middle of the mapped area.
 class StreetPlan {
@@ -44,17 +29,24 @@ class StreetPlan {
   };
   Place place(Vec2d q) const;
 
-  double pitch_m() const { return block_m_ + street_m_; }
-  double block_m() const { return block_m_; }
+  Vec2d pitch_m() const { return {block_m_.x + street_m_, block_m_.y + street_m_}; }
+  Vec2d block_m() const { return block_m_; }
   double street_m() const { return street_m_; }
+  // Middle of a block, in the plan.
+  Vec2d block_center(int block_x, int block_y) const { return {pitch_m().x * block_x, pitch_m().y * block_y}; }
 
  private:
-  double block_m_, street_m_, per_pitch_;
+  Vec2d block_m_;
+  double street_m_;
+  Vec2d per_pitch_;
   Vec2d middle_, axis_u_, axis_v_;
 };
 
-// All boxes that may be seen on `extent`. A block looks the same however large the extent is.
-std::vector<SolidBox> build_boxes(const Scene& scene, const Ground& ground, const std::optional<StreetPlan>& streets,
-                                  const Box2d& extent);
+struct Solids;
+
+// Adds the blocks whose centre lies in `extent`. A block looks the same however large the extent is. No buildings stand
+// on the blocks whose centre lies in the scene's forest.
+void build_town(const Scene& scene, const StreetPlan& streets, const Ground& ground, const Box2d& extent,
+                Solids& solids);
 
 }  // namespace skysweep::scene

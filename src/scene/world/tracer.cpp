@@ -16,7 +16,7 @@ namespace skysweep::scene {
 namespace {
 
 constexpr int kFacesOfBox = 5;  // top and four walls; nobody sees the bottom
-constexpr unsigned kGroundId = 0, kBoxesId = 1;
+constexpr unsigned kGroundId = 0, kBoxesId = 1, kFacetsId = 2, kFirstTreeId = 16;
 
 // Outward normal and its distance from the box's centre in plan, for faces 1 to 4: +u, +v, -u, -v.
 struct Wall {
@@ -81,6 +81,14 @@ Mesh box_mesh(const std::vector<SolidBox>& boxes) {
   return mesh;
 }
 
+// One quadrilateral a facet or leaf, in their order.
+template <typename Quad>
+Mesh corner_mesh(const std::vector<Quad>& quads) {
+  Mesh mesh;
+  for (const Quad& quad : quads) mesh.add_quad(quad.corner[0], quad.corner[1], quad.corner[2], quad.corner[3]);
+  return mesh;
+}
+
 void attach(RTCDevice device, RTCScene scene, const Mesh& mesh, unsigned id) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -107,14 +115,19 @@ double to_plane(const Ray& ray, Vec3d normal, Vec3d point) {
 struct Tracer::Embree {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::array<RTCScene, kTreePrototypes> prototypes{};
+  // With instances: incoherent. Embree 3.13.5's other traversal never returns from some packets of shadow rays there.
+  RTCIntersectContextFlags traversal = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   ~Embree() {
     rtcReleaseScene(scene);
+    for (RTCScene prototype : prototypes)
+      if (prototype) rtcReleaseScene(prototype);
     rtcReleaseDevice(device);
   }
 };
 
-Tracer::Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const Box2d& extent)
-    : ground_(ground), boxes_(boxes), embree_(std::make_unique<Embree>()) {
+Tracer::Tracer(const Ground& ground, const Solids& solids, const Box2d& extent)
+    : ground_(ground), solids_(solids), embree_(std::make_unique<Embree>()) {
   // One thread: the tree, and with it the winner of a tie, is the same everywhere.
   embree_->device = rtcNewDevice("threads=1,set_affinity=0");
   if (!embree_->device) throw failure("Embree cannot start on this machine");
@@ -124,13 +137,63 @@ Tracer::Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const B
     attach(embree_->device, embree_->scene, ground_mesh(ground, extent), kGroundId);
   else
     ground_tracer_ = std::make_unique<GroundTracer>(ground, extent);
-  if (!boxes.empty()) attach(embree_->device, embree_->scene, box_mesh(boxes), kBoxesId);
+  if (!solids.boxes.empty()) attach(embree_->device, embree_->scene, box_mesh(solids.boxes), kBoxesId);
+  if (!solids.facets.all.empty()) attach(embree_->device, embree_->scene, corner_mesh(solids.facets.all), kFacetsId);
+  if (!solids.trees.empty()) attach_trees();
   rtcCommitScene(embree_->scene);
   if (const RTCError error = rtcGetDeviceError(embree_->device); error != RTC_ERROR_NONE)
     throw failure("Embree cannot build the scene (its error " + std::to_string(error) + ")");
 }
 
 Tracer::~Tracer() = default;
+
+void Tracer::attach_trees() {
+  embree_->traversal = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  for (std::size_t i = 0; i < solids_.trees.size(); ++i) {
+    const TreeInstance& tree = solids_.trees[i];
+    const auto p = static_cast<std::size_t>(tree.prototype);
+    RTCScene& prototype = embree_->prototypes[p];
+    if (!prototype) {
+      prototypes_[p] = make_tree(tree.prototype);
+      prototype = rtcNewScene(embree_->device);
+      rtcSetSceneFlags(prototype, RTC_SCENE_FLAG_ROBUST);
+      attach(embree_->device, prototype, corner_mesh(prototypes_[p]), 0);
+      rtcCommitScene(prototype);
+    }
+    const Vec3d x = tree.direction_to_scene({1, 0, 0}), y = tree.direction_to_scene({0, 1, 0}),
+                z = tree.direction_to_scene({0, 0, 1});
+    std::array<float, 12> columns{};
+    auto out = columns.begin();
+    for (const Vec3d& column : {x, y, z, tree.foot})
+      for (const double v : {column.x, column.y, column.z}) *out++ = static_cast<float>(v);
+    RTCGeometry instance = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, prototype);
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    rtcCommitGeometry(instance);
+    rtcAttachGeometryByID(embree_->scene, instance, kFirstTreeId + static_cast<unsigned>(i));
+    rtcReleaseGeometry(instance);
+  }
+}
+
+void Tracer::hit_facet(const Ray& ray, SurfacePoint& hit) const {
+  const Facet& facet = solids_.facets.all[static_cast<std::size_t>(hit.facet)];
+  hit.face = facet.normal.z > 0 ? Face::top : Face::wall;
+  hit.normal = facet.normal;
+  hit.position = ray.origin + to_plane(ray, facet.normal, facet.corner[0]) * ray.direction;
+  if (facet.normal.z == 1) hit.position.z = facet.corner[0].z;
+}
+
+// In the frame of the prototype, where the leaf is known in double: the way along the ray is the same in both frames.
+void Tracer::hit_leaf(const Ray& ray, SurfacePoint& hit) const {
+  const TreeInstance& tree = solids_.trees[static_cast<std::size_t>(hit.tree)];
+  const Leaf& leaf = prototypes_[static_cast<std::size_t>(tree.prototype)][static_cast<std::size_t>(hit.leaf)];
+  const Vec3d s = leaf.corner[1] - leaf.corner[0], t = leaf.corner[3] - leaf.corner[0];
+  const Ray own{tree.point_to_prototype(ray.origin), tree.direction_to_prototype(ray.direction)};
+  hit.face = Face::leaf;
+  hit.position = ray.origin + to_plane(own, cross(s, t), leaf.corner[0]) * ray.direction;
+  hit.normal = normalized(cross(tree.direction_to_scene(s), tree.direction_to_scene(t)));
+  if (dot(hit.normal, ray.direction) > 0) hit.normal = -hit.normal;
+}
 
 void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
   SKY_CHECK_LE(count, kBatch);
@@ -154,14 +217,21 @@ void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
   }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = embree_->traversal;
   rtcIntersect16(valid, embree_->scene, &context, &packet);
 
   for (int i = 0; i < count; ++i) {
     SurfacePoint& hit = hits[i];
     hit = {};
     const Ray& ray = rays[i];
-    if (packet.hit.geomID[i] == kGroundId) {
+    if (packet.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID) {
+      hit.tree = static_cast<int>(packet.hit.instID[0][i] - kFirstTreeId);
+      hit.leaf = static_cast<int>(packet.hit.primID[i]);
+      hit_leaf(ray, hit);
+    } else if (packet.hit.geomID[i] == kFacetsId) {
+      hit.facet = static_cast<int>(packet.hit.primID[i]);
+      hit_facet(ray, hit);
+    } else if (packet.hit.geomID[i] == kGroundId) {
       // One step of Newton's method from the mesh, which is only millimetres away.
       const Vec3d near = ray.origin + static_cast<double>(packet.ray.tfar[i]) * ray.direction;
       const Ground::Sample ground = ground_.at({near.x, near.y});
@@ -172,7 +242,7 @@ void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
     } else if (packet.hit.geomID[i] == kBoxesId) {
       hit.box = static_cast<int>(packet.hit.primID[i]) / kFacesOfBox;
       const int face = static_cast<int>(packet.hit.primID[i]) % kFacesOfBox;
-      const SolidBox& box = boxes_[static_cast<std::size_t>(hit.box)];
+      const SolidBox& box = solids_.boxes[static_cast<std::size_t>(hit.box)];
       Vec3d on_face{box.center.x, box.center.y, box.z_high};
       hit.face = face == 0 ? Face::top : Face::wall;
       hit.normal = {0, 0, 1};
@@ -240,7 +310,7 @@ void Tracer::blocked(const Ray* rays, const bool* active, int count, bool endles
   if (!any) return;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = embree_->traversal;
   rtcOccluded16(valid, embree_->scene, &context, &packet);
   for (int i = 0; i < count; ++i) out[i] = active[i] && packet.tfar[i] < 0;
   if (!ground_tracer_) return;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays against ground and boxes. Embree finds in single precision what is hit; where, is then computed in double from
-// the closed form of the face or the ground, so that the truth does not depend on Embree's precision or the mesh.
+// Rays against ground, boxes, facets and trees. Embree finds in single precision what is hit; where, is then computed
+// in double from the closed form of the ground or the plane of the face, facet or leaf, so that the truth does not
+// depend on Embree's precision or the mesh.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -10,16 +12,18 @@
 #include "core/vec.h"
 #include "scene/world/ground.h"
 #include "scene/world/ray.h"
+#include "scene/world/solids.h"
 #include "scene/world/terrain/ground_tracer.h"
-#include "scene/world/town.h"
 
 namespace skysweep::scene {
 
-enum class Face { none, ground, top, wall, water };
+enum class Face { none, ground, top, wall, leaf, water };  // top and wall: of a box or facet
 
 struct SurfacePoint {
   Face face = Face::none;
-  int box = -1;  // index of the box hit, or -1
+  int box = -1;              // index of the box hit, or -1
+  int facet = -1;            // of the facet
+  int tree = -1, leaf = -1;  // of the tree, and of the leaf of its prototype
   Vec3d position;
   Vec3d normal;  // unit, outwards
 };
@@ -29,8 +33,8 @@ class Tracer {
  public:
   static constexpr int kBatch = kRayBatch;
 
-  // `ground` and `boxes` must outlive the tracer. Ground is there on `extent` only.
-  Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const Box2d& extent);
+  // `ground` and `solids` must outlive the tracer. Ground is there on `extent` only.
+  Tracer(const Ground& ground, const Solids& solids, const Box2d& extent);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
@@ -46,9 +50,13 @@ class Tracer {
   struct Embree;
   // Puts the ground (or water) into the place of what lies behind it.
   void meet_shaped_ground(const Ray* rays, int count, SurfacePoint* hits) const;
+  void hit_facet(const Ray& ray, SurfacePoint& hit) const;
+  void hit_leaf(const Ray& ray, SurfacePoint& hit) const;
+  void attach_trees();
 
   const Ground& ground_;
-  const std::vector<SolidBox>& boxes_;
+  const Solids& solids_;
+  std::array<std::vector<Leaf>, kTreePrototypes> prototypes_;  // those that some tree is of
   std::unique_ptr<Embree> embree_;
   std::unique_ptr<GroundTracer> ground_tracer_;  // of ground that is not plain; without it the ground is in embree_
 };

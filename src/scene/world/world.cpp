@@ -29,7 +29,8 @@ std::optional<StreetPlan> plan_streets(const Scene& scene) {
 
 // Beyond what is seen, as far as shadows and blocks reach into it.
 Box2d with_surroundings(const Scene& scene, const Box2d& visible) {
-  const double margin = scene.town ? scene.town->block_m + scene.town->street_m : 1.0;
+  double margin = scene.town ? std::max(scene.town->block_m, scene.town->block_depth_m) + scene.town->street_m : 1.0;
+  if (scene.things.forest) margin = std::max(margin, scene.things.forest->max_height_m);
   return {{visible.min.x - margin, visible.min.y - margin}, {visible.max.x + margin, visible.max.y + margin}};
 }
 
@@ -38,14 +39,14 @@ Box2d with_surroundings(const Scene& scene, const Box2d& visible) {
 World::World(const Scene& scene, const Box2d& visible)
     : ground_(scene),
       streets_(plan_streets(scene)),
-      boxes_(build_boxes(scene, ground_, streets_, with_surroundings(scene, visible))),
-      tracer_(ground_, boxes_, with_surroundings(scene, visible)),
-      materials_(scene, ground_, streets_, boxes_),
+      solids_(build_solids(scene, ground_, streets_, with_surroundings(scene, visible))),
+      tracer_(ground_, solids_, with_surroundings(scene, visible)),
+      materials_(scene, ground_, streets_, solids_),
       towards_sun_(direction_to_sun(scene.light)),
       shadows_(scene.light.shadows),
       lowest_m_(ground_.heights(with_surroundings(scene, visible)).lowest),
       highest_m_(ground_.heights(with_surroundings(scene, visible)).highest) {
-  for (const SolidBox& box : boxes_) highest_m_ = std::max(highest_m_, box.z_high);
+  highest_m_ = std::max(highest_m_, solids_.highest_m());
 }
 
 void World::look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const {

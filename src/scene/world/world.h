@@ -9,6 +9,8 @@
 #include "scene/scene.h"
 #include "scene/world/ground.h"
 #include "scene/world/materials.h"
+#include "scene/world/solids.h"
+#include "scene/world/surface_class.h"
 #include "scene/world/town.h"
 #include "scene/world/tracer.h"
 
@@ -29,6 +31,9 @@ class World {
   // Of the bare ground, or of the water that stands on it.
   double ground_m(Vec2d p) const { return ground_.surface_m(p); }
 
+  const Solids& solids() const { return solids_; }
+  SurfaceClass surface_class(const SurfacePoint& point) const { return class_of(point, solids_); }
+
   // Light that comes back along each of `count` <= Tracer::kBatch rays (1: white, lit like level ground in the sun),
   // and what they hit first.
   void look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const;
@@ -36,7 +41,7 @@ class World {
  private:
   Ground ground_;
   std::optional<StreetPlan> streets_;
-  std::vector<SolidBox> boxes_;
+  Solids solids_;
   Tracer tracer_;
   Materials materials_;
   Vec3d towards_sun_;
