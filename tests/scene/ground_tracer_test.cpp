@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "core/random.h"
@@ -81,6 +82,23 @@ TEST(GroundTracer, rays_meet_every_kind_of_ground_where_its_closed_form_is) {
 
 TEST(GroundTracer, rays_that_graze_meet_it_there_too) {
   for (const auto& [name, terrain] : terrains_of_every_kind()) expect_agreement(name, terrain, 1.6, 60, 12);
+}
+
+TEST(GroundTracer, a_ray_five_millimetres_below_a_crest_does_not_slip_through) {
+  // The crest lies up to 26 mm above a mesh through points of the ground.
+  const Ground ground(shaped(SinusoidTerrain{120, {50, 50}}, 6, 25), 5);
+  const GroundTracer tracer(ground, kExtent);
+  const Vec2d across{std::sin(120 * std::numbers::pi / 180), std::cos(120 * std::numbers::pi / 180)};
+  for (int i = 0; i < 200; ++i) {
+    const Vec2d crest = Vec2d{50, 50} + 6.25 * across + (0.1 * i - 10) * Vec2d{-across.y, across.x};
+    const Vec2d valley = crest - 12.5 * across;
+    const Ray ray{{valley.x, valley.y, ground.at(crest).z - 0.005}, {across.x, across.y, 0}};
+    const bool active = true;
+    std::optional<GroundTracer::Hit> hit;
+    tracer.first_hits(&ray, &active, 1, kInfinity, &hit);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->t, *march(ground, ray, 0, 13, 0.01), 1e-6);
+  }
 }
 
 TEST(GroundTracer, a_vertical_ray_gives_the_height_itself) {

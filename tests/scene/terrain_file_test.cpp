@@ -213,7 +213,9 @@ TEST(TerrainFile, scene_json_names_every_kind_and_the_content_of_files) {
     Scene scene;
     scene.terrain = terrain;
     const std::string json = scene_to_json(scene);
-    EXPECT_NE(json.find("\"kind\": \"" + kind_name(terrain) + "\""), std::string::npos) << name;
+    const bool named = json.find("\"kind\": \"" + kind_name(terrain) + "\"") != std::string::npos;
+    EXPECT_EQ(named, terrain.shape.index() != 0) << name;  // rolling ground is what it is without a name
+    EXPECT_EQ(json.find("heights_m") != std::string::npos, !terrain.modifications.empty()) << name;
     EXPECT_EQ(json.find("water_level_m") != std::string::npos, terrain.water_level_m.has_value()) << name;
   }
   Scene plain;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/random.h"
 #include "scene/terrain.h"
 #include "scene/world/terrain/height_grid.h"
 
@@ -39,6 +40,13 @@ inline std::vector<std::pair<std::string, Terrain>> terrains_of_every_kind() {
   Terrain cratered = shaped(PlaneTerrain{10, 90, kMiddle});
   cratered.modifications = {crater({45, 52}, {20, 16}, 3), {{60, 50}, {6, 4}, 3, 2, {1, 2, 1.5, -1, 0.5, 2}}};
   out.emplace_back("craters on a plane", cratered);
+  // As steep and broken as a DEM of a town: heights without any relation, one a metre.
+  Terrain rubble;
+  TerrainModification matrix{kMiddle, {40, 40}, 41, 41, {}};
+  Random random(8);
+  for (int i = 0; i < 41 * 41; ++i) matrix.heights_m.push_back(random.uniform(0, 5));
+  rubble.modifications = {matrix};
+  out.emplace_back("rubble", rubble);
   Terrain flooded = shaped(QuarryTerrain{kMiddle, {50, 44}, 20, 3, 4, 3, 75, 0.4});
   flooded.water_level_m = -9.5;
   out.emplace_back("flooded quarry", flooded);

@@ -85,10 +85,13 @@ TEST(TerrainTruth, shaped_ground_gives_the_same_bytes_for_one_and_two_threads) {
   for (const Terrain& terrain :
        {shaped(FractalTerrain{5, 0.5}, 4, 12), shaped(QuarryTerrain{{10, 8}, {19, 15}, 0, 2, 2, 1, 70, 0.3})}) {
     const fs::path a = fresh_folder("a"), b = fresh_folder("b");
+    Scene scene = small_scene(terrain);
+    scene.camera = camera::camera_from_sensor(10, 10, 100, 75);
+    scene.flight.gsd_m = 0.2;
     SerialExecutor serial;
     ThreadExecutor two(2);
-    simulate(small_scene(terrain), a, serial);
-    simulate(small_scene(terrain), b, two);
+    simulate(scene, a, serial);
+    simulate(scene, b, two);
     for (const char* file : {"images/0001.png", "images/0004.png", "truth/dsm.tif", "truth/dtm.tif", "truth/ortho.tif",
                              "truth/views.tif", "scene.json"})
       EXPECT_EQ(bytes(a / file), bytes(b / file)) << file;
