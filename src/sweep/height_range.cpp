@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sweep/heights.h"
+#include "sweep/photometric_evidence.h"
 
 namespace skysweep::sweep {
 namespace {
@@ -88,7 +89,9 @@ std::optional<HeightRange> range_within(const Array2d<float>& height, int x0, in
 Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double z_high, Backend backend,
                               Executor& executor) {
   const SweepProblem coarse = coarse_problem(problem, z_low, z_high);
-  const Heights found = heights_from_matches(coarse, match_planes(coarse, backend, executor));
+  const MatchResult matches = match_planes(coarse, backend, executor);
+  Heights found = heights_from_matches(coarse, matches);
+  drop_heights_without_evidence(coarse, matches, executor, found);
   return without_small_patches(found.height_m, kConnectedPlanes * coarse.dz_m);
 }
 
