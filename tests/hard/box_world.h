@@ -93,6 +93,8 @@ struct WorldProblem {
   sweep::SweepProblem& problem = synthetic.problem;
 
   explicit WorldProblem(BoxWorld w) : world(std::move(w)) {}
+  // Filled by `fill`: for functions that give one back in place.
+  WorldProblem(BoxWorld w, const std::function<void(WorldProblem&)>& fill) : world(std::move(w)) { fill(*this); }
   WorldProblem(const WorldProblem&) = delete;
 
   void add_view(const camera::CameraModel& model, const camera::Pose& pose) {
