@@ -69,11 +69,12 @@ void warn_of_gap(std::vector<const index::ImageRecord*> used, double Vec3d::*axi
     const double gap = used[i]->pose.center.*axis - used[i - 1]->pose.center.*axis;
     if (gap < kFarApart_m) continue;
     const bool west_is_smaller = i <= used.size() - i;
-    warnings.push_back(std::to_string(west_is_smaller ? i : used.size() - i) + " of " + std::to_string(used.size()) +
-                       " photographs, " + used[west_is_smaller ? i - 1 : i]->name + " among them, lie " +
-                       number(gap / 1000) + " km " + direction +
-                       " of the others and cannot be matched with them: a position without a fix, or one of another UTM "
-                       "zone? Give all positions in one CRS; a flight across a zone border belongs into one zone.");
+    warnings.push_back(
+        std::to_string(west_is_smaller ? i : used.size() - i) + " of " + std::to_string(used.size()) +
+        " photographs, " + used[west_is_smaller ? i - 1 : i]->name + " among them, lie " + number(gap / 1000) + " km " +
+        direction +
+        " of the others and cannot be matched with them: a position without a fix, or one of another UTM "
+        "zone? Give all positions in one CRS; a flight across a zone border belongs into one zone.");
   }
 }
 
@@ -96,9 +97,9 @@ void require_countable_lattice(const std::vector<index::ImageRecord>& records, c
   const sweep::HeightRange heights = heights_searched(cameras, settings.search);
   const double planes = (heights.z_high - heights.z_low) / lattice.dz_m;
   if (!(lattice.dz_m > 0) || !(planes < kMostPlanes))
-    throw usage_error("Heights from " + number(heights.z_low) + " m to " + number(heights.z_high) +
-                      " m in steps of " + number(lattice.dz_m) + " m make " + number(planes) + " planes, more than " +
-                      number(kMostPlanes) + ": give a larger --dz or a narrower --z-range.");
+    throw usage_error("Heights from " + number(heights.z_low) + " m to " + number(heights.z_high) + " m in steps of " +
+                      number(lattice.dz_m) + " m make " + number(planes) + " planes, more than " + number(kMostPlanes) +
+                      ": give a larger --dz or a narrower --z-range.");
   const double farthest = std::max(std::abs(heights.z_low), std::abs(heights.z_high));
   if (!(farthest / lattice.dz_m < kFarthestPlane))
     throw usage_error("Heights of " + number(farthest) + " m cannot be numbered in steps of " + number(lattice.dz_m) +

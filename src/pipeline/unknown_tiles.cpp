@@ -14,7 +14,8 @@ void UnknownTiles::add(const TileOutcome& outcome) {
 
 std::string UnknownTiles::sentence() const {
   if (count() == 0) return {};
-  std::string text = "In " + std::to_string(count()) + " of " + std::to_string(looked_at) + " tiles no height is known: ";
+  std::string text =
+      "In " + std::to_string(count()) + " of " + std::to_string(looked_at) + " tiles no height is known: ";
   if (too_few_views > 0)
     text += std::to_string(too_few_views) + " are not seen by two photographs from different places";
   if (too_few_views > 0 && no_surface > 0) text += ", and in ";

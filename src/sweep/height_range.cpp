@@ -14,6 +14,9 @@ namespace skysweep::sweep {
 namespace {
 
 constexpr double kMaxCostToMean = 0.6;  // of a coarse cell that stands out
+// A cost can stand out only from a mean over planes most of which are wrong: a narrow range is compared with planes
+// outside it, too, and what is found there is forgotten.
+constexpr int kFewestCoarsePlanes = 16;
 // Neighbouring coarse cells belong together when they differ by at most so many coarse planes, and to a surface when so
 // many belong together: false matches come in smaller patches.
 constexpr double kConnectedPlanes = 2;
@@ -23,6 +26,17 @@ constexpr double kMarginCoarsePlanes = 2;
 // A block is searched where the coarse surface lies up to this many coarse cells outside it, too: surfaces near a step
 // reach over the border of a block.
 constexpr int kNeighborhoodCoarseCells = 4;
+
+// At least kFewestCoarsePlanes of them around the same middle.
+PlaneRange comparable_planes(PlaneRange planes) {
+  const int missing = std::max(0, kFewestCoarsePlanes - planes.count());
+  return {planes.first - missing / 2, planes.last + (missing + 1) / 2};
+}
+
+void forget_outside(Array2d<float>& height, double z_low, double z_high) {
+  for (float& z : height)
+    if (!(z >= z_low && z <= z_high)) z = std::numeric_limits<float>::quiet_NaN();
+}
 
 SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_high) {
   SweepProblem coarse;
@@ -36,7 +50,7 @@ SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_hig
   coarse.options.window_level_min = 0;
   coarse.options.window_level_max = 2;
   coarse.options.max_cost_to_mean = kMaxCostToMean;
-  coarse.search_everywhere(planes_between(z_low, z_high, coarse.dz_m, 1));
+  coarse.search_everywhere(comparable_planes(planes_between(z_low, z_high, coarse.dz_m, 1)));
   return coarse;
 }
 
@@ -92,6 +106,7 @@ Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double 
   const MatchResult matches = match_planes(coarse, backend, executor);
   Heights found = heights_from_matches(coarse, matches);
   drop_heights_without_evidence(coarse, matches, executor, found);
+  forget_outside(found.height_m, z_low - coarse.dz_m, z_high + coarse.dz_m);
   return without_small_patches(found.height_m, kConnectedPlanes * coarse.dz_m);
 }
 

@@ -93,7 +93,8 @@ TEST(HardCoordinates, tiles_between_two_far_sites_are_never_visited) {
 // Hard: a scene of one millimetre: the grid of 2^-20 m to which positions are snapped is a third of its pixels.
 // Bound: the run says so; a scene of a metre is left in peace.
 TEST(HardCoordinates, a_microscope_is_told_to_what_positions_are_rounded) {
-  const std::vector<index::ImageRecord> records = {photograph_at("a", {0, 0, 1e-3}), photograph_at("b", {2e-4, 0, 1e-3})};
+  const std::vector<index::ImageRecord> records = {photograph_at("a", {0, 0, 1e-3}),
+                                                   photograph_at("b", {2e-4, 0, 1e-3})};
   const auto warnings = pipeline::resolution_warnings(records, settings_for(1e-3, 3e-6));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("camera positions are rounded"), std::string::npos) << warnings[0];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hard cases of coordinate systems: units other than metres in every disguise. (A flight across a UTM zone border:
 // flights_test.cpp.)
+#include "raster/crs.h"
+
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "raster/crs.h"
 
 namespace skysweep::hard {
 namespace {

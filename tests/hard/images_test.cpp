@@ -90,6 +90,17 @@ TEST(HardImages, one_pixel_wide_images) {
   }
 }
 
+// Hard: a known range of a few plane steps leaves hardly any wrong height to compare the right one with.
+// Bound: the coarse search finds the ground in a range of a single GSD as it does in one of 80.
+TEST(HardImages, a_range_as_narrow_as_the_ground_is_searched_as_well_as_a_wide_one) {
+  WorldProblem p({});
+  p.add_ring(7, kCamera, 6, 30);
+  p.set_grid(128, 0.1, 0.1, -4, 4);
+  EXPECT_GT(trusted_share(p.problem, -4, 4), 0.65);
+  EXPECT_GT(trusted_share(p.problem, -0.05, 0.05), 0.65);
+  EXPECT_EQ(trusted_share(p.problem, 3, 4), 0);  // the ground lies outside
+}
+
 // Hard: a part of each photograph is burnt out. Bound: the rest is right, and of the burnt part nothing is claimed
 // beyond the reach of the windows: 5 pixels of the coarsest level (8 x 8), that pixel and the next, and the parallax of
 // 2 m: 60 cells.

@@ -77,7 +77,8 @@ TEST(HardPoses, quaternions_not_quite_unit) {
 TEST(HardPoses, rank_deficient_and_nan_rotations) {
   const double kNaN = std::numeric_limits<double>::quiet_NaN();
   const Mat3d flat{{1, 0, 0, 0, 1, 0, 0, 0, 0}}, zero{{0, 0, 0, 0, 0, 0, 0, 0, 0}}, twice{{2, 0, 0, 0, 2, 0, 0, 0, 2}};
-  for (const Mat3d& m : {flat, zero, twice}) EXPECT_EQ(*(camera::Pose{m, {}}.problem()), "the rotation matrix is not orthonormal");
+  for (const Mat3d& m : {flat, zero, twice})
+    EXPECT_EQ(*(camera::Pose{m, {}}.problem()), "the rotation matrix is not orthonormal");
   EXPECT_EQ(*(camera::Pose{{{kNaN, 0, 0, 0, 1, 0, 0, 0, 1}}, {}}.problem()), "the rotation is not finite");
   EXPECT_EQ(*(camera::Pose{Mat3d{}, {0, kNaN, 0}}.problem()), "the position is not finite");
 }
@@ -130,8 +131,13 @@ TEST_F(HardPoseFiles, angle_axis_vectors_of_absurd_length) {
 // Hard: coefficients as large or as small as a double can hold. Bound: a pixel on the photograph or none, never NaN.
 TEST(HardCameras, absurd_and_denormal_distortion_shows_finite_pixels_or_none) {
   constexpr double kTiny = 5e-324, kHuge = 1e300;
-  for (const camera::Distortion& d : {camera::Distortion{.k1 = kTiny}, {.k1 = kHuge}, {.k1 = -kHuge}, {.k1 = -1e8},
-                                      {.k2 = kHuge, .k3 = -kHuge}, {.p1 = kHuge}, {.p1 = 0.7, .p2 = -0.7}}) {
+  for (const camera::Distortion& d : {camera::Distortion{.k1 = kTiny},
+                                      {.k1 = kHuge},
+                                      {.k1 = -kHuge},
+                                      {.k1 = -1e8},
+                                      {.k2 = kHuge, .k3 = -kHuge},
+                                      {.p1 = kHuge},
+                                      {.p1 = 0.7, .p2 = -0.7}}) {
     const camera::CameraModel model{320, 240, 300, 300, 160, 120, d};
     ASSERT_FALSE(model.problem());
     const camera::Camera camera(model, {camera::rotation_from_yaw_pitch_roll(0, -90, 0), {0, 0, 30}});

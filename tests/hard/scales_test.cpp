@@ -73,16 +73,16 @@ TEST_P(HardHeights, are_found_to_a_share_of_the_gsd) {
   EXPECT_LT(a.median_error, h.median) << a;
   EXPECT_GT(a.within, 0.9) << a;
 }
-INSTANTIATE_TEST_SUITE_P(
-    Ranges, HardHeights,
-    testing::Values(Heights{"below_zero", 0.1, -412.37, 0.1, 8, 24, 0.02}, Heights{"across_zero", 0.1, -0.73, 0.1, 8, 24, 0.02},
-                    Heights{"roof_at_zero", 0.1, -1.5, 0.1, 8, 18, 0.02},
-                    Heights{"summit_of_8848_m", 0.1, 8848.86, 0.1, 8, 24, 0.025},
-                    Heights{"step_of_1_mm_at_gsd_1_mm", 0.001, 101.3, 0.001, 8, 24, 0.0003},
-                    Heights{"step_of_1_mm_at_gsd_1_cm", 0.01, 0.3, 0.001, 60, 200, 0.002},
-                    Heights{"step_of_1_m_at_gsd_1_m", 1, 5, 1, 8, 24, 0.3},
-                    Heights{"step_of_10_m_at_gsd_10_m", 10, 1234, 10, 8, 24, 3}),
-    [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(Ranges, HardHeights,
+                         testing::Values(Heights{"below_zero", 0.1, -412.37, 0.1, 8, 24, 0.02},
+                                         Heights{"across_zero", 0.1, -0.73, 0.1, 8, 24, 0.02},
+                                         Heights{"roof_at_zero", 0.1, -1.5, 0.1, 8, 18, 0.02},
+                                         Heights{"summit_of_8848_m", 0.1, 8848.86, 0.1, 8, 24, 0.025},
+                                         Heights{"step_of_1_mm_at_gsd_1_mm", 0.001, 101.3, 0.001, 8, 24, 0.0003},
+                                         Heights{"step_of_1_mm_at_gsd_1_cm", 0.01, 0.3, 0.001, 60, 200, 0.002},
+                                         Heights{"step_of_1_m_at_gsd_1_m", 1, 5, 1, 8, 24, 0.3},
+                                         Heights{"step_of_10_m_at_gsd_10_m", 10, 1234, 10, 8, 24, 3}),
+                         [](const auto& i) { return std::string(i.param.name); });
 
 // Hard: z / dz for kilometres and millimetres exceeds what a float counts. Bound: planes bracket the range exactly.
 TEST(HardPlanes, bracket_the_range_far_from_zero_and_across_it) {

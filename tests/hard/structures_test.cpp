@@ -38,8 +38,8 @@ Shares shares(const sweep::SweepProblem& problem, const sweep::SweepResult& resu
 TEST(HardStructures, tower_of_120_m_beside_a_courtyard) {
   BoxWorld world;
   world.gsd_m = 0.25;
-  world.boxes = {{{4, -6, 0}, {14, 6, 120}},     // the tower
-                 {{-14, -8, 0}, {-12, 8, 20}},   // four wings around the yard
+  world.boxes = {{{4, -6, 0}, {14, 6, 120}},    // the tower
+                 {{-14, -8, 0}, {-12, 8, 20}},  // four wings around the yard
                  {{-2, -8, 0}, {0, 8, 20}},
                  {{-14, 6, 0}, {0, 8, 20}},
                  {{-14, -8, 0}, {0, -6, 20}}};
