@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/camera_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace skysweep::camera {
 
+namespace {
+constexpr double kShortestFocal = 5e-4, kLongestFocal = 1e6;  // times the longer side of the image
+constexpr double kFarthestPrincipalPoint = 1e7;               // pixels
+}  // namespace
+
 std::optional<std::string> CameraModel::problem() const {
   if (width_px <= 0 || height_px <= 0) return "the image size must be positive";
   if (!(std::isfinite(fx_px) && std::isfinite(fy_px) && fx_px > 0 && fy_px > 0))
     return "the focal length must be a positive number of pixels";
-  if (!(std::isfinite(cx_px) && std::isfinite(cy_px))) return "the principal point must be a finite number";
+  // A view of 179.9 degrees, or one of a thousandth of a second of arc a pixel; beyond, quotients leave the doubles.
+  const double longer_side = std::max(width_px, height_px);
+  for (const double f : {fx_px, fy_px})
+    if (f < kShortestFocal * longer_side || f > kLongestFocal * longer_side)
+      return "the focal length must lie between " + std::to_string(kShortestFocal * longer_side) + " and " +
+             std::to_string(kLongestFocal * longer_side) + " pixels for an image of this size";
+  if (!(std::abs(cx_px) <= kFarthestPrincipalPoint && std::abs(cy_px) <= kFarthestPrincipalPoint))
+    return "the principal point must be a finite number of pixels, not beyond 10^7";
   const Distortion& d = distortion;
   if (!(std::isfinite(d.k1) && std::isfinite(d.k2) && std::isfinite(d.k3) && std::isfinite(d.p1) &&
         std::isfinite(d.p2)))

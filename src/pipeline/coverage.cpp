@@ -10,6 +10,8 @@
 namespace skysweep::pipeline {
 namespace {
 
+constexpr double kSlackM = 1e-3;  // the index answers in world coordinates; the exact test has the last word
+
 // Rays flatter than this many times the depth are cut off.
 constexpr double kLongestRay = 4;
 
@@ -52,12 +54,9 @@ std::vector<tiles::TileKey> Coverage::tiles(const std::optional<Box2d>& area) co
   const tiles::Lattice& lattice = settings_.lattice;
   const tiles::TileKey first = lattice.key_at(0, mapped.min), last = lattice.key_at(0, mapped.max);
   std::vector<tiles::TileKey> keys;
-  for (int y = first.y; y <= last.y; ++y) {
-    for (int x = first.x; x <= last.x; ++x) {
-      const tiles::TileKey key{0, x, y};
-      if (area && !area->intersects(lattice.extent(key))) continue;
-      if (static_cast<int>(candidates(key).size()) >= settings_.configuration.sweep.min_views) keys.push_back(key);
-    }
+  for (const tiles::TileKey key : touched_tiles(mapped)) {
+    if (area && !area->intersects(lattice.extent(key))) continue;
+    if (static_cast<int>(candidates(key).size()) >= settings_.configuration.sweep.min_views) keys.push_back(key);
   }
   std::sort(keys.begin(), keys.end(), [&](tiles::TileKey a, tiles::TileKey b) {
     const auto position = [&](tiles::TileKey k) {
@@ -68,8 +67,24 @@ std::vector<tiles::TileKey> Coverage::tiles(const std::optional<Box2d>& area) co
   return keys;
 }
 
+// Photograph by photograph, not over the box around all of them: one position without a fix, at (0, 0), would make
+// that as large as a continent.
+std::set<tiles::TileKey> Coverage::touched_tiles(const Box2d& mapped) const {
+  const double reach = settings_.configuration.tiles.collar_cells * settings_.lattice.cell_m + kSlackM;
+  std::set<tiles::TileKey> keys;
+  for (const index::ImageRecord& record : records_) {
+    if (record.status != index::ImageStatus::used) continue;
+    const Box2d box = pyramid_box(camera::Camera(record.model, record.pose), settings_.search).ground();
+    const Vec2d low{std::max(box.min.x - reach, mapped.min.x), std::max(box.min.y - reach, mapped.min.y)};
+    const Vec2d high{std::min(box.max.x + reach, mapped.max.x), std::min(box.max.y + reach, mapped.max.y)};
+    const tiles::TileKey first = settings_.lattice.key_at(0, low), last = settings_.lattice.key_at(0, high);
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x) keys.insert({0, x, y});
+  }
+  return keys;
+}
+
 std::vector<const index::ImageRecord*> Coverage::candidates(tiles::TileKey key) const {
-  constexpr double kSlackM = 1e-3;  // the index answers in world coordinates; the exact test below has the last word
   const Box2d world = tile_with_collar(key, settings_);
   const Box3d extent = index_.extent();
   const Box3d query{{world.min.x - kSlackM, world.min.y - kSlackM, extent.min.z},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "index/image_record.h"
@@ -24,6 +25,9 @@ class Coverage {
   std::vector<const index::ImageRecord*> candidates(tiles::TileKey key) const;
 
  private:
+  // Tiles within `mapped` that the box of any photograph comes near; a tile that none does has no candidates.
+  std::set<tiles::TileKey> touched_tiles(const Box2d& mapped) const;
+
   const std::vector<index::ImageRecord>& records_;
   const ProjectSettings& settings_;
   index::ViewIndex index_;

@@ -7,6 +7,7 @@
 #include "index/catalogue.h"
 #include "pipeline/coverage.h"
 #include "pipeline/ground_estimate.h"
+#include "pipeline/lattice_limits.h"
 #include "pipeline/open_project.h"
 #include "pipeline/photographs.h"
 #include "pipeline/tbb_executor.h"
@@ -63,6 +64,9 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
   summary.settings = choice.existing ? *choice.existing
                                      : new_project_settings(request, choice.configuration, photographs.records, photos,
                                                             executor, progress);
+  require_countable_lattice(photographs.records, summary.settings);
+  for (const std::string& warning : resolution_warnings(photographs.records, summary.settings)) progress.warn(warning);
+  for (const std::string& warning : scatter_warnings(photographs.records)) progress.warn(warning);
   use_recorded_instruction_set(summary.settings);
   set_footprints(photographs.records, summary.settings.search);
 

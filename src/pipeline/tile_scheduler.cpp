@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "pipeline/coverage.h"
 #include "pipeline/tile_job.h"
+#include "pipeline/unknown_tiles.h"
 #include "tiles/pyramid.h"
 
 namespace skysweep::pipeline {
@@ -71,6 +72,7 @@ class Pass {
   }
 
   const std::vector<tiles::TileKey>& changed() const { return changed_; }
+  const UnknownTiles& unknown() const { return unknown_; }
 
  private:
   void compute(const StaleTile& tile, Executor& executor) {
@@ -88,6 +90,7 @@ class Pass {
       ++summary_.tiles_computed;
       summary_.tiles_empty += outcome.empty();
       summary_.samples += outcome.samples;
+      unknown_.add(outcome);
     } catch (const PhotographFailed& failed) {
       const std::lock_guard lock(mutex_);
       failed_photographs_[failed.name()] = failed.what();
@@ -101,6 +104,7 @@ class Pass {
   std::mutex mutex_;
   std::vector<tiles::TileKey> changed_;
   std::map<std::string, std::string> failed_photographs_;
+  UnknownTiles unknown_;
 };
 
 std::vector<StaleTile> find_stale(const MapUpdate& update, const Coverage& coverage, int& kept) {
@@ -153,6 +157,13 @@ void refuse(std::vector<index::ImageRecord>& images, const std::map<std::string,
   }
 }
 
+// The border of every map has such tiles; a map of nothing else is worth a warning.
+void say_what_is_unknown(const UnknownTiles& unknown, Progress& progress) {
+  const std::string sentence = unknown.sentence();
+  if (sentence.empty()) return;
+  unknown.count() == unknown.looked_at ? progress.warn(sentence) : progress.note(sentence);
+}
+
 // A photograph that could not be decoded last time is tried first, not when half the map has been computed with it.
 void retry_refused_ones(MapUpdate& update, Progress& progress) {
   std::map<std::string, std::string> refused_content;
@@ -190,7 +201,10 @@ void update_map(MapUpdate& update, RunSummary& summary, TbbExecutor& executor, P
     Pass pass(update, summary, progress, stop);
     const std::map<std::string, std::string> failed = pass.run(stale, executor);
     changed.insert(changed.end(), pass.changed().begin(), pass.changed().end());
-    if (failed.empty() || stop) break;
+    if (failed.empty() || stop) {
+      say_what_is_unknown(pass.unknown(), progress);
+      break;
+    }
     refuse(update.images, failed, progress);
   }
   summary.tiles_kept = kept_before;

@@ -47,6 +47,15 @@ void require_usable(const OGRSpatialReference& crs, const std::string& text) {
   if (crs.IsCompound() && !is_metre(crs.GetTargetLinearUnits("COMPD_CS|VERT_CS", &unit)))
     throw refusal(text, "has heights in units of \"" + std::string(unit) +
                             "\", but heights are in metres: use a vertical part in metres");
+  // A projected system with a third axis of its own (WKT 2, or +vunits of a PROJ string) is not compound.
+  for (int axis = 0; axis < crs.GetAxesCount(); ++axis) {
+    OGRAxisOrientation direction{};
+    double metres = 1;
+    const char* name = crs.GetAxis(nullptr, axis, &direction, &metres);
+    if (!is_metre(metres))
+      throw refusal(text, "has its axis \"" + std::string(name ? name : "height") + "\" in units of " +
+                              std::to_string(metres) + " m, but maps and heights are in metres: use metres");
+  }
 }
 
 }  // namespace

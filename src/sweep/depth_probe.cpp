@@ -50,8 +50,9 @@ std::vector<double> depths_to_search(const View& reference, const std::vector<Vi
   if (longest == 0) return {};
   const double nearest = kNearestBaselines * shortest, farthest = kFarthestBaselines * longest;
   const double focal = std::ldexp(reference.camera.model().focal_px(), -level);
-  const int count =
-      std::min(kMaxPlanes, static_cast<int>(focal * longest * (1 / nearest - 1 / farthest) / kStepPx) + 2);
+  // Limited before it becomes a whole number: with a neighbour a micrometre away the parallax exceeds any.
+  const double steps = focal * longest * (1 / nearest - 1 / farthest) / kStepPx;
+  const int count = static_cast<int>(std::min<double>(steps, kMaxPlanes - 2)) + 2;
   std::vector<double> depths(count);
   for (int i = 0; i < count; ++i) depths[i] = 1 / (1 / farthest + (1 / nearest - 1 / farthest) * i / (count - 1));
   return depths;

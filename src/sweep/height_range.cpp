@@ -8,11 +8,15 @@
 #include <vector>
 
 #include "sweep/heights.h"
+#include "sweep/photometric_evidence.h"
 
 namespace skysweep::sweep {
 namespace {
 
 constexpr double kMaxCostToMean = 0.6;  // of a coarse cell that stands out
+// A cost can stand out only from a mean over planes most of which are wrong: a narrow range is compared with planes
+// outside it, too, and what is found there is forgotten.
+constexpr int kFewestCoarsePlanes = 16;
 // Neighbouring coarse cells belong together when they differ by at most so many coarse planes, and to a surface when so
 // many belong together: false matches come in smaller patches.
 constexpr double kConnectedPlanes = 2;
@@ -22,6 +26,20 @@ constexpr double kMarginCoarsePlanes = 2;
 // A block is searched where the coarse surface lies up to this many coarse cells outside it, too: surfaces near a step
 // reach over the border of a block.
 constexpr int kNeighborhoodCoarseCells = 4;
+// A block of which the coarse sweep knows less than this share may hold a surface that it missed (a small roof whose
+// texture is gone at that scale, with false matches in between): all heights of the tile are searched there.
+constexpr double kLeastKnownShare = 0.75;
+
+// At least kFewestCoarsePlanes of them around the same middle.
+PlaneRange comparable_planes(PlaneRange planes) {
+  const int missing = std::max(0, kFewestCoarsePlanes - planes.count());
+  return {planes.first - missing / 2, planes.last + (missing + 1) / 2};
+}
+
+void forget_outside(Array2d<float>& height, double z_low, double z_high) {
+  for (float& z : height)
+    if (!(z >= z_low && z <= z_high)) z = std::numeric_limits<float>::quiet_NaN();
+}
 
 SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_high) {
   SweepProblem coarse;
@@ -36,7 +54,7 @@ SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_hig
   coarse.options.window_level_max = 2;
   coarse.options.refinement_radius_cells = 0;  // ranges need no better heights
   coarse.options.max_cost_to_mean = kMaxCostToMean;
-  coarse.search_everywhere(planes_between(z_low, z_high, coarse.dz_m, 1));
+  coarse.search_everywhere(comparable_planes(planes_between(z_low, z_high, coarse.dz_m, 1)));
   return coarse;
 }
 
@@ -84,12 +102,26 @@ std::optional<HeightRange> range_within(const Array2d<float>& height, int x0, in
   return range;
 }
 
+double known_share(const Array2d<float>& height, int x0, int y0, int x1, int y1) {
+  int known = 0, all = 0;
+  for (int y = y0; y < std::min(height.height(), y1); ++y) {
+    for (int x = x0; x < std::min(height.width(), x1); ++x) {
+      known += !std::isnan(height(x, y));
+      ++all;
+    }
+  }
+  return all > 0 ? static_cast<double>(known) / all : 0;
+}
+
 }  // namespace
 
 Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double z_high, Backend backend,
                               Executor& executor) {
   const SweepProblem coarse = coarse_problem(problem, z_low, z_high);
-  const Heights found = heights_from_matches(coarse, match_planes(coarse, backend, executor));
+  const MatchResult matches = match_planes(coarse, backend, executor);
+  Heights found = heights_from_matches(coarse, matches);
+  drop_heights_without_evidence(coarse, matches, executor, found);
+  forget_outside(found.height_m, z_low - coarse.dz_m, z_high + coarse.dz_m);
   return without_small_patches(found.height_m, kConnectedPlanes * coarse.dz_m);
 }
 
@@ -98,15 +130,19 @@ std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProbl
   problem.search_everywhere({});
   if (!whole) return std::nullopt;
 
-  const double margin_m = kMarginCoarsePlanes * kCoarseCells * problem.dz_m;
   constexpr int kCoarsePerBlock = kBlockCells / kCoarseCells;
+  const auto is_known = [&](int bx, int by) {
+    const int x = bx * kCoarsePerBlock, y = by * kCoarsePerBlock;
+    return known_share(surface, x, y, x + kCoarsePerBlock, y + kCoarsePerBlock) >= kLeastKnownShare;
+  };
+  const double margin_m = kMarginCoarsePlanes * kCoarseCells * problem.dz_m;
   for (int by = 0; by < problem.block_planes.height(); ++by) {
     for (int bx = 0; bx < problem.block_planes.width(); ++bx) {
       const int x = bx * kCoarsePerBlock, y = by * kCoarsePerBlock;
       constexpr int reach = kNeighborhoodCoarseCells;
-      const HeightRange range =
-          range_within(surface, x - reach, y - reach, x + kCoarsePerBlock + reach, y + kCoarsePerBlock + reach)
-              .value_or(*whole);
+      HeightRange range = *whole;
+      if (is_known(bx, by))
+        range = *range_within(surface, x - reach, y - reach, x + kCoarsePerBlock + reach, y + kCoarsePerBlock + reach);
       problem.block_planes(bx, by) = planes_between(range.z_low - margin_m, range.z_high + margin_m, problem.dz_m, 1);
     }
   }

@@ -26,8 +26,8 @@ Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double 
                               Executor& executor);
 
 // Sets problem.block_planes: for each block the planes around the coarse heights of the block and its surroundings, the
-// whole tile's where a block has none, and none at all when the tile has none. Returns the range over the whole tile;
-// nothing when the surface is empty.
+// whole tile's where the surface is unknown in more than a quarter of a block, and none at all when the tile has none.
+// Returns the range over the whole tile; nothing when the surface is empty.
 std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProblem& problem);
 
 }  // namespace skysweep::sweep

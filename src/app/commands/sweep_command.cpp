@@ -15,6 +15,7 @@
 #include "raster/crs.h"
 #include "sweep/heights.h"
 #include "sweep/orthophoto.h"
+#include "sweep/photometric_evidence.h"
 
 namespace skysweep::app {
 namespace {
@@ -84,7 +85,8 @@ int dump_tile(const SweepOptions& options) {
       pipeline::prepare_tile(*key, coverage.candidates(*key), settings, photos, executor);
   const sweep::SweepProblem& problem = tile.problem;
   const sweep::MatchResult matches = sweep::match_planes(problem, settings.backend, executor);
-  const sweep::Heights heights = sweep::heights_from_matches(problem, matches);
+  sweep::Heights heights = sweep::heights_from_matches(problem, matches);
+  sweep::drop_heights_without_evidence(problem, matches, executor, heights);
   sweep::SweepResult result;
   result.height_m = heights.height_m;
   sweep::colorize(problem, executor, result);

@@ -115,8 +115,9 @@ camera::CameraModel read_camera(const Json& camera, const std::string& where) {
 }
 
 // Rotation by |v| about v (Rodrigues 1840).
-Mat3d rotation_from_angle_axis(Vec3d v) {
+Mat3d rotation_from_angle_axis(Vec3d v, const std::string& where) {
   const double angle = norm(v);
+  if (!std::isfinite(angle)) throw bad_input(where + ": the rotation is no number of radians.");
   const double half_sine_per_angle = angle < 1e-12 ? 0.5 : std::sin(0.5 * angle) / angle;
   const Vec3d q = half_sine_per_angle * v;
   const auto rotation = camera::rotation_from_quaternion(std::cos(0.5 * angle), q.x, q.y, q.z);
@@ -125,7 +126,7 @@ Mat3d rotation_from_angle_axis(Vec3d v) {
 }
 
 camera::Pose read_pose(const Json& shot, const std::string& where) {
-  const Mat3d rotation = rotation_from_angle_axis(vector(shot, "rotation", where));
+  const Mat3d rotation = rotation_from_angle_axis(vector(shot, "rotation", where), where);
   return {rotation, -(transpose(rotation) * vector(shot, "translation", where))};
 }
 

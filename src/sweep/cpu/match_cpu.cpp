@@ -36,8 +36,8 @@ HWY_INLINE void find_positions(const RowJob& job, int segment, double z, Workspa
     const ViewKernel& view = (*job.views)[v];
     Positions& positions = work.positions[samples.count];
     bool any = false, all = true;
-    const double* u = work.knots[v].u.data() + segment;
-    if (std::isnan(u[0] + u[1] + u[2] + u[3] + u[4] + u[5])) {  // NaN if any knot is
+    if (!follows_polynomial(work.knots[v].u.data() + segment) ||
+        !follows_polynomial(work.knots[v].v.data() + segment)) {
       const Vec2d first{job.first_cell.x + segment * kSegmentCells * job.cell_m, job.first_cell.y};
       any = positions_one_by_one(view, first, job.cell_m, z, positions);
       all = false;

@@ -75,6 +75,24 @@ struct Segment {
 constexpr double kQuintic[6][6] = {{0, 0, 120, 0, 0, 0},      {6, -60, -40, 120, -30, 4}, {-5, 80, -150, 80, -5, 0},
                                    {-5, -5, 50, -70, 35, -5}, {5, -20, 30, -20, 5, 0},    {-1, 5, -10, 10, -5, 1}};
 
+// Near the plane of the centre of projection 1/depth, and beyond the fold the lens, leave every polynomial behind: a
+// segment is trusted to it only while its highest term is so small (the error is below 0.6 of it as long as the sixth
+// difference of the knots does not exceed the fifth), and its steepest so moderate that single precision holds it.
+constexpr double kLargestFifthTerm = 1.0 / 1024;  // pixels
+constexpr double kLargestSlope = 4096;            // pixels per segment
+constexpr double kFarthestPixel = 1 << 22;        // whole pixels that single precision and 32 bits hold with ease
+
+// Whether polynomial_through is good to a thousandth of a pixel for these six knots. False for NaN and infinities.
+HWY_INLINE bool follows_polynomial(const double* knot) {
+  double slope = 0, fifth = 0;
+  for (int k = 0; k < 6; ++k) {
+    slope += kQuintic[1][k] * knot[k];
+    fifth += kQuintic[5][k] * knot[k];
+  }
+  return std::abs(knot[2]) < kFarthestPixel && std::abs(slope) < 120 * kLargestSlope &&
+         std::abs(fifth) < 120 * kLargestFifthTerm;
+}
+
 HWY_INLINE Segment polynomial_through(const double* knot) {
   const double base = std::floor(knot[2]);
   Segment out{static_cast<int>(base), {static_cast<float>(knot[2] - base)}};
@@ -93,7 +111,8 @@ struct Positions {
   int base_u = 0, base_v = 0;
 };
 
-// The cells of a segment one by one, exactly: for segments that touch a place the camera cannot show.
+// The cells of a segment one by one, exactly: for segments that touch a place the camera cannot show, or where no
+// polynomial follows the projection.
 HWY_NOINLINE bool positions_one_by_one(const ViewKernel& view, Vec2d first_cell, double cell_m, double z,
                                        Positions& out) {
   bool any = false;
