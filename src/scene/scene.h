@@ -14,6 +14,7 @@
 
 #include "camera/camera_model.h"
 #include "core/vec.h"
+#include "scene/flight.h"
 
 namespace skysweep::scene {
 
@@ -54,19 +55,6 @@ struct Light {
   bool shadows = true;  // whether buildings and ground cast them
 };
 
-// Parallel strips, flown to and fro, with the top of the photographs in the direction of flight. Strips and views are
-// spread evenly, at least as dense as the overlaps ask for.
-struct Flight {
-  double gsd_m = 0.05;          // at mean ground height; altitude = gsd x focal length in pixels
-  double along_overlap = 0.8;   // of consecutive photographs of a strip, 0 to below 1
-  double across_overlap = 0.7;  // of neighbouring strips
-  double heading_deg = 0;       // of the strips, clockwise from north
-  double beyond_area_m = 0;     // how far the outermost positions lie outside the mapped area; negative: inside
-  double off_nadir_deg = 0;     // all photographs look forward by this angle
-  double tilt_sigma_deg = 0;    // seeded scatter of roll and pitch; of yaw: twice that
-  double position_sigma_m = 0;  // seeded scatter of each coordinate
-};
-
 enum class PhotoFormat { jpeg, png };
 
 // What the camera makes of the light. Effects that are zero cost nothing and change no byte.
@@ -93,13 +81,17 @@ struct Scene {
   Light light;
   camera::CameraModel camera;
   Flight flight;
+  std::vector<Flight> further_flights;  // flown after it, with the same camera
   Photographs photographs;
   Truth truth;
 
   // Defaults that depend on other members, resolved.
   double finest_detail_m() const;
   double truth_cell_m() const;
-  double altitude_m() const { return flight.gsd_m * camera.focal_px(); }  // above z = 0
+  // All flights, in the order they are flown; valid as long as the scene is.
+  std::vector<const Flight*> flights() const;
+  double gsd_m() const;       // the finest of all flights
+  double altitude_m() const;  // the first of the first flight, above z = 0
 };
 
 }  // namespace skysweep::scene

@@ -16,6 +16,7 @@
 #include "raster/crs.h"
 #include "raster/digest.h"
 #include "raster/photo.h"
+#include "scene/flight/clearance.h"
 #include "scene/flight_plan.h"
 #include "scene/render/photograph.h"
 #include "scene/render/truth.h"
@@ -45,6 +46,9 @@ void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses,
   constexpr double kMostVisible_m = 1e5;
   if (std::max(visible.width(), visible.height()) > kMostVisible_m)
     throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
+  const std::vector<const Flight*> flights = scene.flights();
+  if (!std::all_of(flights.begin(), flights.end(), [](const Flight* f) { return flies_over_everything(*f); }))
+    return;  // decided place by place: require_above_surface
   double highest = 0.5 * scene.terrain.relief_m;
   if (scene.town) highest += scene.town->max_height_m;
   for (const Building& building : scene.buildings) highest = std::max(highest, building.roof_z_m);
@@ -107,6 +111,8 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   const std::vector<camera::Pose> poses = plan_flight(scene);
   const Box2d visible = visible_ground(scene, poses);
   require_flyable(scene, poses, visible);
+  const World world(scene, visible);
+  require_above_surface(world, poses);
   const std::vector<formats::PosedImage> photographs = name_photographs(scene, poses);
   raster::require_writable_folder(folder);
   require_no_others(folder / "images", photographs);
@@ -114,7 +120,6 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   formats::write_colmap_text(folder / "sparse", photographs);
   raster::write_bytes_atomically(folder / "scene.json", scene_to_json(scene));
 
-  const World world(scene, visible);
   const PixelRays rays(scene.camera);
   const int total = static_cast<int>(poses.size()) + 1;
   const auto report = [&](int done) {
@@ -131,7 +136,7 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
               folder / "truth");
   report(total);
-  return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};
+  return {static_cast<int>(poses.size()), scene.gsd_m(), grid.cell_m};
 }
 
 }  // namespace skysweep::scene

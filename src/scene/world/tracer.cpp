@@ -105,11 +105,17 @@ double to_plane(const Ray& ray, Vec3d normal, Vec3d point) {
 
 struct Tracer::Embree {
   RTCDevice device = nullptr;
+  RTCDevice unlimited = nullptr;  // see allow_all_threads
   RTCScene scene = nullptr;
   ~Embree() {
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
+    if (unlimited) rtcReleaseDevice(unlimited);
   }
+
+  // As long as a device lives that was made with "threads=1", Embree holds all of oneTBB in this process to one thread,
+  // ours included. The largest wish of all devices counts: one that wishes for all threads ends the limit.
+  void allow_all_threads() { unlimited = rtcNewDevice("set_affinity=0"); }
 };
 
 Tracer::Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const Box2d& extent)
@@ -124,6 +130,7 @@ Tracer::Tracer(const Ground& ground, const std::vector<SolidBox>& boxes, const B
   rtcCommitScene(embree_->scene);
   if (const RTCError error = rtcGetDeviceError(embree_->device); error != RTC_ERROR_NONE)
     throw failure("Embree cannot build the scene (its error " + std::to_string(error) + ")");
+  embree_->allow_all_threads();
 }
 
 Tracer::~Tracer() = default;
