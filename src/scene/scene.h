@@ -7,6 +7,7 @@
 // byte of the result.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -55,7 +56,7 @@ struct Light {
   bool shadows = true;  // whether buildings and ground cast them
 };
 
-enum class PhotoFormat { jpeg, png };
+enum class PhotoFormat { jpeg, png, tiff, exr };
 
 // What the camera makes of the light. Effects that are zero cost nothing and change no byte.
 struct Photographs {
@@ -65,8 +66,23 @@ struct Photographs {
   double gain_spread = 0;  // standard deviation of the logarithm of each photograph's exposure
 };
 
+// EXIF and XMP tags as a drone writes them (formats/photo_metadata.h). Positions need a scene with a crs.
+struct Metadata {
+  std::string make = "Skysweep", model = "simulated camera";
+  double sensor_width_mm = 13.2;  // turns the focal length into millimetres
+  std::chrono::sys_seconds start = std::chrono::sys_days{std::chrono::year{2026} / 6 / 21} + std::chrono::hours(10);
+  double speed_mps = 8;  // from photograph to photograph: gives the times
+};
+
 struct Truth {
-  double cell_m = 0;  // of the truth rasters; 0: twice the GSD, rounded to two digits
+  double cell_m = 0;     // of the truth rasters; 0: twice the GSD, rounded to two digits
+  int tie_points = 400;  // places looked at for points of the COLMAP model; kept are those that three photographs see
+  bool depth = false;    // a depth image of every photograph
+};
+
+// Points of known position on open ground, for gcp_list.txt.
+struct GroundControl {
+  int points = 12;  // places looked at; kept are those on open ground that three photographs see
 };
 
 struct Scene {
@@ -83,7 +99,9 @@ struct Scene {
   Flight flight;
   std::vector<Flight> further_flights;  // flown after it, with the same camera
   Photographs photographs;
+  std::optional<Metadata> metadata;
   Truth truth;
+  std::optional<GroundControl> ground_control;
 
   // Defaults that depend on other members, resolved.
   double finest_detail_m() const;

@@ -6,6 +6,7 @@
 #include "camera/pose.h"
 #include "core/error.h"
 #include "scene/file/read_flight.h"
+#include "scene/file/read_products.h"
 #include "scene/file/read_values.h"
 #include "settings/toml_table.h"
 
@@ -62,13 +63,11 @@ Light read_light(const TomlTable& table) {
 Photographs read_photographs(const TomlTable& table) {
   Photographs out;
   if (const auto format = table.string("format")) {
-    if (*format != "jpg" && *format != "png")
-      throw usage_error(table.where("format") + " must be \"jpg\" or \"png\", not \"" + *format + "\"");
-    out.format = *format == "png" ? PhotoFormat::png : PhotoFormat::jpeg;
+    out.format = read_photo_format(table, *format);
   }
   read(table, "jpeg_quality", out.jpeg_quality, 1, 100);
-  if (out.format == PhotoFormat::png && table.has("jpeg_quality"))
-    throw usage_error(table.where("jpeg_quality") + " has no effect on PNG files: remove it");
+  if (out.format != PhotoFormat::jpeg && table.has("jpeg_quality"))
+    throw usage_error(table.where("jpeg_quality") + " has no effect on files other than JPEG: remove it");
   read(table, "noise_sigma", out.noise_sigma, 0, 255);
   read(table, "gain_spread", out.gain_spread, 0, 3);
   return out;
@@ -88,7 +87,7 @@ Scene scene_from(const TomlTable& file, const std::filesystem::path& folder, con
   if (const auto table = file.table("light")) out.light = read_light(*table);
   read_camera_and_flights(file, folder, name, out);
   if (const auto table = file.table("photographs")) out.photographs = read_photographs(*table);
-  if (const auto table = file.table("truth")) read(*table, "cell_m", out.truth.cell_m, kTiny);
+  read_products(file, out);
   file.refuse_unknown();
   return out;
 }

@@ -2,6 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/file/flight_json.h"
+#include "scene/file/products_json.h"
+#include "scene/photograph_files.h"
 #include "scene/scene_file.h"
 
 namespace skysweep::scene {
@@ -50,11 +52,11 @@ std::string scene_to_json(const Scene& scene) {
                   {"shadows", scene.light.shadows}};
   out["camera"] = camera_json(scene.camera);
   out["flight"] = flights_json(scene);
-  out["photographs"] = {{"format", scene.photographs.format == PhotoFormat::png ? "png" : "jpg"},
+  out["photographs"] = {{"format", file_ending(scene.photographs.format)},
                         {"jpeg_quality", scene.photographs.jpeg_quality},
                         {"noise_sigma", scene.photographs.noise_sigma},
                         {"gain_spread", scene.photographs.gain_spread}};
-  out["truth"] = {{"cell_m", scene.truth_cell_m()}};
+  add_products_json(scene, out);
   return out.dump(2) + "\n";
 }
 

@@ -15,9 +15,14 @@
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
 #include "raster/digest.h"
+#include "raster/exr.h"
 #include "raster/photo.h"
 #include "scene/flight/clearance.h"
 #include "scene/flight_plan.h"
+#include "scene/metadata.h"
+#include "scene/photograph_files.h"
+#include "scene/products.h"
+#include "scene/render/depth_image.h"
 #include "scene/render/photograph.h"
 #include "scene/render/truth.h"
 #include "scene/scene_file.h"
@@ -60,11 +65,11 @@ void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses,
 }
 
 std::vector<formats::PosedImage> name_photographs(const Scene& scene, const std::vector<camera::Pose>& poses) {
-  const char* ending = scene.photographs.format == PhotoFormat::png ? "png" : "jpg";
+  const std::string ending = file_ending(scene.photographs.format);
   std::vector<formats::PosedImage> out;
   for (const camera::Pose& pose : poses) {
     char name[32];
-    std::snprintf(name, sizeof name, "%04d.%s", static_cast<int>(out.size()) + 1, ending);
+    std::snprintf(name, sizeof name, "%04d.%s", static_cast<int>(out.size()) + 1, ending.c_str());
     out.push_back(
         {name, scene.camera, {pose.cam_from_world, camera::snap_position(pose.center + scene.origin)}, "simulated"});
   }
@@ -91,6 +96,33 @@ Exposure exposure_of(const Scene& scene, std::size_t index) {
   return out;
 }
 
+void write_depth(const fs::path& path, const Array2d<float>& depth, const std::string& software) {
+  raster::ExrImage image;
+  image.channels["Z"] = depth;
+  image.labels = {{"content", "depth along the view direction at the centre of each pixel"},
+                  {"units", "metre"},
+                  {"software", software}};
+  raster::write_exr(path, image);
+}
+
+// A photograph that is not yet on the disk.
+struct Shot {
+  std::size_t index = 0;
+  Array2d<Rgb8> photo;   // empty: nothing to write
+  Array2d<float> depth;  // likewise
+};
+
+void write_shot(const Scene& scene, const std::vector<formats::PosedImage>& photographs,
+                const std::vector<formats::PhotoMetadata>& metadata, const Shot& shot, const std::string& software,
+                const fs::path& folder) {
+  if (shot.photo.empty()) return;
+  const fs::path name = photographs[shot.index].name;
+  write_photograph(folder / "images" / name, shot.photo, scene.photographs.jpeg_quality,
+                   metadata.empty() ? nullptr : &metadata[shot.index]);
+  if (!shot.depth.empty())
+    write_depth(folder / "truth" / "depth" / fs::path(name).replace_extension("exr"), shot.depth, software);
+}
+
 void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& grid, const TruthLayers& truth,
                  const std::string& software, const fs::path& folder) {
   const raster::GeoReference where{crs, grid.north_west_corner, grid.cell_m};
@@ -107,6 +139,8 @@ void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& gr
 
 Simulation simulate(const Scene& scene, const fs::path& folder, Executor& executor, const SimulationOptions& options) {
   require_usable(scene);
+  require_products_possible(scene);
+  require_metadata_possible(scene);
   const std::string crs = scene.crs.empty() ? raster::local_metric_crs() : raster::crs_from_user_input(scene.crs);
   const std::vector<camera::Pose> poses = plan_flight(scene);
   const Box2d visible = visible_ground(scene, poses);
@@ -117,7 +151,6 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   raster::require_writable_folder(folder);
   require_no_others(folder / "images", photographs);
   formats::write_poses_csv(folder / "poses.csv", photographs);
-  formats::write_colmap_text(folder / "sparse", photographs);
   raster::write_bytes_atomically(folder / "scene.json", scene_to_json(scene));
 
   const PixelRays rays(scene.camera);
@@ -126,12 +159,23 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
     if (options.progress) options.progress(done, total);
   };
   std::vector<camera::Camera> cameras;
+  for (const camera::Pose& pose : poses) cameras.emplace_back(scene.camera, pose);
+  write_products(scene, world, photographs, cameras, folder);
+  const std::vector<formats::PhotoMetadata> metadata = metadata_of(scene, photographs, crs, options.software);
+
+  // Encoding and writing take one thread: the others render the next photograph meanwhile.
+  Shot taken;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Array2d<Rgb8> photo = take_photograph(world, scene.camera, rays, poses[i], exposure_of(scene, i), executor);
-    raster::write_image(folder / "images" / photographs[i].name, photo, scene.photographs.jpeg_quality);
-    cameras.emplace_back(scene.camera, poses[i]);
-    report(static_cast<int>(cameras.size()));
+    Shot next{i, {}, {}};
+    executor.parallel_for(2, [&](int part) {
+      if (part == 0) return write_shot(scene, photographs, metadata, taken, options.software, folder);
+      next.photo = take_photograph(world, scene.camera, rays, poses[i], exposure_of(scene, i), executor);
+      if (scene.truth.depth) next.depth = depth_image(world, scene.camera, rays, poses[i], executor);
+    });
+    taken = std::move(next);
+    report(static_cast<int>(i) + 1);
   }
+  write_shot(scene, photographs, metadata, taken, options.software, folder);
   const TruthGrid grid = truth_grid(scene);
   write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
               folder / "truth");
