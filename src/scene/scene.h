@@ -14,6 +14,7 @@
 
 #include "camera/camera_model.h"
 #include "core/vec.h"
+#include "scene/effect_settings.h"
 
 namespace skysweep::scene {
 
@@ -94,6 +95,7 @@ struct Scene {
   camera::CameraModel camera;
   Flight flight;
   Photographs photographs;
+  Effects effects;
   Truth truth;
 
   // Defaults that depend on other members, resolved.

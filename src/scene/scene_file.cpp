@@ -7,6 +7,7 @@
 
 #include "camera/pose.h"
 #include "core/error.h"
+#include "scene/effects/scene_effects.h"
 #include "settings/toml_table.h"
 
 namespace skysweep::scene {
@@ -169,6 +170,7 @@ Scene scene_from(const TomlTable& file, const std::string& name) {
   out.camera = read_camera(required(file.table("camera"), "the table [camera]", name), name);
   if (const auto table = file.table("flight")) out.flight = read_flight(*table);
   if (const auto table = file.table("photographs")) out.photographs = read_photographs(*table);
+  if (const auto table = file.table("effects")) out.effects = read_effects(*table);
   if (const auto table = file.table("truth")) read(*table, "cell_m", out.truth.cell_m, kTiny);
   file.refuse_unknown();
   return out;

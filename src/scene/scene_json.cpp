@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "scene/effects/scene_effects.h"
 #include "scene/scene_file.h"
 
 namespace skysweep::scene {
@@ -75,6 +76,7 @@ std::string scene_to_json(const Scene& scene) {
                         {"jpeg_quality", scene.photographs.jpeg_quality},
                         {"noise_sigma", scene.photographs.noise_sigma},
                         {"gain_spread", scene.photographs.gain_spread}};
+  if (const Json effects = effects_json(scene.effects); !effects.empty()) out["effects"] = effects;
   out["truth"] = {{"cell_m", scene.truth_cell_m()}};
   return out.dump(2) + "\n";
 }

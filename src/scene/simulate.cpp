@@ -16,6 +16,7 @@
 #include "raster/crs.h"
 #include "raster/digest.h"
 #include "raster/photo.h"
+#include "scene/effects/scene_effects.h"
 #include "scene/flight_plan.h"
 #include "scene/render/photograph.h"
 #include "scene/render/truth.h"
@@ -107,14 +108,17 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   const std::vector<camera::Pose> poses = plan_flight(scene);
   const Box2d visible = visible_ground(scene, poses);
   require_flyable(scene, poses, visible);
+  const std::unique_ptr<SceneEffects> effects = make_effects(scene, poses);
   const std::vector<formats::PosedImage> photographs = name_photographs(scene, poses);
   raster::require_writable_folder(folder);
   require_no_others(folder / "images", photographs);
-  formats::write_poses_csv(folder / "poses.csv", photographs);
-  formats::write_colmap_text(folder / "sparse", photographs);
+  const auto recorded = effects ? effects->recorded(photographs) : photographs;
+  formats::write_poses_csv(folder / "poses.csv", recorded);
+  formats::write_colmap_text(folder / "sparse", recorded);
   raster::write_bytes_atomically(folder / "scene.json", scene_to_json(scene));
 
-  const World world(scene, visible);
+  World world(scene, visible);
+  if (effects) effects->change_world(world);
   const PixelRays rays(scene.camera);
   const int total = static_cast<int>(poses.size()) + 1;
   const auto report = [&](int done) {
@@ -122,7 +126,9 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   };
   std::vector<camera::Camera> cameras;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Array2d<Rgb8> photo = take_photograph(world, scene.camera, rays, poses[i], exposure_of(scene, i), executor);
+    const auto changes = effects ? effects->photograph(i, world) : nullptr;
+    const Array2d<Rgb8> photo =
+        take_photograph(world, scene.camera, rays, poses[i], exposure_of(scene, i), executor, changes.get());
     raster::write_image(folder / "images" / photographs[i].name, photo, scene.photographs.jpeg_quality);
     cameras.emplace_back(scene.camera, poses[i]);
     report(static_cast<int>(cameras.size()));
@@ -130,8 +136,10 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   const TruthGrid grid = truth_grid(scene);
   write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
               folder / "truth");
+  if (effects && effects->spoils_metadata()) formats::write_poses_csv(folder / "truth/poses.csv", photographs);
   report(total);
-  return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};
+  return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m, effects ? effects->rays_per_pixel() : 4,
+          effects ? effects->report() : nothing_runs()};
 }
 
 }  // namespace skysweep::scene
