@@ -6,6 +6,15 @@
 
 namespace skysweep::scene {
 
+std::string file_ending(PhotoFormat format) {
+  switch (format) {
+    case PhotoFormat::png: return "png";
+    case PhotoFormat::tiff: return "tif";
+    case PhotoFormat::exr: return "exr";
+    default: return "jpg";
+  }
+}
+
 double Scene::finest_detail_m() const { return texture.finest_m > 0 ? texture.finest_m : 0.5 * gsd_m(); }
 
 double Scene::truth_cell_m() const {

@@ -16,6 +16,7 @@
 #include "camera/camera_model.h"
 #include "core/vec.h"
 #include "scene/flight.h"
+#include "scene/effect_settings.h"
 
 namespace skysweep::scene {
 
@@ -56,7 +57,9 @@ struct Light {
   bool shadows = true;  // whether buildings and ground cast them
 };
 
-enum class PhotoFormat { jpeg, png, tiff, exr };
+enum class PhotoFormat { jpeg, png, tiff, exr };  // EXR: linear light as floats
+// Ending of its files, without the dot; also the word for it in scene files.
+std::string file_ending(PhotoFormat format);
 
 // What the camera makes of the light. Effects that are zero cost nothing and change no byte.
 struct Photographs {
@@ -100,6 +103,7 @@ struct Scene {
   std::vector<Flight> further_flights;  // flown after it, with the same camera
   Photographs photographs;
   std::optional<Metadata> metadata;
+  Effects effects;
   Truth truth;
   std::optional<GroundControl> ground_control;
 

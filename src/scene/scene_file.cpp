@@ -8,6 +8,7 @@
 #include "scene/file/read_flight.h"
 #include "scene/file/read_products.h"
 #include "scene/file/read_values.h"
+#include "scene/effects/scene_effects.h"
 #include "settings/toml_table.h"
 
 namespace skysweep::scene {
@@ -69,6 +70,8 @@ Photographs read_photographs(const TomlTable& table) {
   if (out.format != PhotoFormat::jpeg && table.has("jpeg_quality"))
     throw usage_error(table.where("jpeg_quality") + " has no effect on files other than JPEG: remove it");
   read(table, "noise_sigma", out.noise_sigma, 0, 255);
+  if (out.format == PhotoFormat::exr && table.has("noise_sigma"))
+    throw usage_error(table.where("noise_sigma") + " has no effect on EXR files, which hold light and no grey levels: remove it");
   read(table, "gain_spread", out.gain_spread, 0, 3);
   return out;
 }
@@ -88,6 +91,7 @@ Scene scene_from(const TomlTable& file, const std::filesystem::path& folder, con
   read_camera_and_flights(file, folder, name, out);
   if (const auto table = file.table("photographs")) out.photographs = read_photographs(*table);
   read_products(file, out);
+  if (const auto table = file.table("effects")) out.effects = read_effects(*table);
   file.refuse_unknown();
   return out;
 }

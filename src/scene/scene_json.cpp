@@ -3,7 +3,7 @@
 
 #include "scene/file/flight_json.h"
 #include "scene/file/products_json.h"
-#include "scene/photograph_files.h"
+#include "scene/effects/scene_effects.h"
 #include "scene/scene_file.h"
 
 namespace skysweep::scene {
@@ -57,6 +57,7 @@ std::string scene_to_json(const Scene& scene) {
                         {"noise_sigma", scene.photographs.noise_sigma},
                         {"gain_spread", scene.photographs.gain_spread}};
   add_products_json(scene, out);
+  if (const Json effects = effects_json(scene.effects); !effects.empty()) out["effects"] = effects;
   return out.dump(2) + "\n";
 }
 

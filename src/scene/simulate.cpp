@@ -15,15 +15,13 @@
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
 #include "raster/digest.h"
-#include "raster/exr.h"
 #include "raster/photo.h"
+#include "scene/effects/scene_effects.h"
 #include "scene/flight/clearance.h"
 #include "scene/flight_plan.h"
 #include "scene/metadata.h"
-#include "scene/photograph_files.h"
 #include "scene/products.h"
-#include "scene/render/depth_image.h"
-#include "scene/render/photograph.h"
+#include "scene/render/taken_photograph.h"
 #include "scene/render/truth.h"
 #include "scene/scene_file.h"
 #include "scene/world/world.h"
@@ -96,33 +94,6 @@ Exposure exposure_of(const Scene& scene, std::size_t index) {
   return out;
 }
 
-void write_depth(const fs::path& path, const Array2d<float>& depth, const std::string& software) {
-  raster::ExrImage image;
-  image.channels["Z"] = depth;
-  image.labels = {{"content", "depth along the view direction at the centre of each pixel"},
-                  {"units", "metre"},
-                  {"software", software}};
-  raster::write_exr(path, image);
-}
-
-// A photograph that is not yet on the disk.
-struct Shot {
-  std::size_t index = 0;
-  Array2d<Rgb8> photo;   // empty: nothing to write
-  Array2d<float> depth;  // likewise
-};
-
-void write_shot(const Scene& scene, const std::vector<formats::PosedImage>& photographs,
-                const std::vector<formats::PhotoMetadata>& metadata, const Shot& shot, const std::string& software,
-                const fs::path& folder) {
-  if (shot.photo.empty()) return;
-  const fs::path name = photographs[shot.index].name;
-  write_photograph(folder / "images" / name, shot.photo, scene.photographs.jpeg_quality,
-                   metadata.empty() ? nullptr : &metadata[shot.index]);
-  if (!shot.depth.empty())
-    write_depth(folder / "truth" / "depth" / fs::path(name).replace_extension("exr"), shot.depth, software);
-}
-
 void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& grid, const TruthLayers& truth,
                  const std::string& software, const fs::path& folder) {
   const raster::GeoReference where{crs, grid.north_west_corner, grid.cell_m};
@@ -145,12 +116,15 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   const std::vector<camera::Pose> poses = plan_flight(scene);
   const Box2d visible = visible_ground(scene, poses);
   require_flyable(scene, poses, visible);
-  const World world(scene, visible);
+  const std::unique_ptr<SceneEffects> effects = make_effects(scene, poses);
+  World world(scene, visible);
   require_above_surface(world, poses);
+  if (effects) effects->change_world(world);
   const std::vector<formats::PosedImage> photographs = name_photographs(scene, poses);
   raster::require_writable_folder(folder);
   require_no_others(folder / "images", photographs);
-  formats::write_poses_csv(folder / "poses.csv", photographs);
+  const auto recorded = effects ? effects->recorded(photographs) : photographs;
+  formats::write_poses_csv(folder / "poses.csv", recorded);
   raster::write_bytes_atomically(folder / "scene.json", scene_to_json(scene));
 
   const PixelRays rays(scene.camera);
@@ -160,27 +134,35 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   };
   std::vector<camera::Camera> cameras;
   for (const camera::Pose& pose : poses) cameras.emplace_back(scene.camera, pose);
-  write_products(scene, world, photographs, cameras, folder);
-  const std::vector<formats::PhotoMetadata> metadata = metadata_of(scene, photographs, crs, options.software);
+  write_products(scene, world, recorded, cameras, folder);
+  const std::vector<formats::PhotoMetadata> metadata = metadata_of(scene, recorded, crs, options.software);
+  const auto write = [&](std::size_t i, const TakenPhotograph& photograph) {
+    write_taken(scene, photograph, photographs[i].name, metadata.empty() ? nullptr : &metadata[i], options.software,
+                folder);
+  };
 
   // Encoding and writing take one thread: the others render the next photograph meanwhile.
-  Shot taken;
+  TakenPhotograph taken;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    Shot next{i, {}, {}};
+    TakenPhotograph next;
+    const auto changes = effects ? effects->photograph(i, world) : nullptr;
     executor.parallel_for(2, [&](int part) {
-      if (part == 0) return write_shot(scene, photographs, metadata, taken, options.software, folder);
-      next.photo = take_photograph(world, scene.camera, rays, poses[i], exposure_of(scene, i), executor);
-      if (scene.truth.depth) next.depth = depth_image(world, scene.camera, rays, poses[i], executor);
+      if (part == 1)
+        next = take(scene, world, rays, poses[i], exposure_of(scene, i), changes.get(), executor);
+      else if (i > 0)
+        write(i - 1, taken);
     });
     taken = std::move(next);
     report(static_cast<int>(i) + 1);
   }
-  write_shot(scene, photographs, metadata, taken, options.software, folder);
+  write(poses.size() - 1, taken);
   const TruthGrid grid = truth_grid(scene);
   write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
               folder / "truth");
+  if (effects && effects->spoils_metadata()) formats::write_poses_csv(folder / "truth/poses.csv", photographs);
   report(total);
-  return {static_cast<int>(poses.size()), scene.gsd_m(), grid.cell_m};
+  return {static_cast<int>(poses.size()), scene.gsd_m(), grid.cell_m, effects ? effects->rays_per_pixel() : 4,
+          effects ? effects->report() : nothing_runs()};
 }
 
 }  // namespace skysweep::scene

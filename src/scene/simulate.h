@@ -3,6 +3,7 @@
 //
 //   images/0001.jpg ...   photographs, sRGB
 //   poses.csv, sparse/    their poses, and as a COLMAP text model
+//   truth/poses.csv       the right poses, if an effect spoils those above
 //   truth/dsm.tif         height of the highest surface at the centre of each cell
 //   truth/ortho.tif       its colour, averaged over the cell: as in the photographs without noise and gain
 //   truth/views.tif       how many photographs see it
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/executor.h"
 #include "scene/scene.h"
@@ -28,6 +30,8 @@ struct Simulation {
   int photographs = 0;
   double gsd_m = 0;  // at mean ground height
   double truth_cell_m = 0;
+  int rays_per_pixel = 4;
+  std::vector<EffectReport> effects;  // all there are, in the order in which they act; empty if the build has none
 };
 
 // Writes the files above into `folder`, replacing those there. The same scene gives the same bytes, whatever the

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "scene/file/read_values.h"
-#include "scene/photograph_files.h"
 
 namespace skysweep::scene {
 namespace {
