@@ -15,8 +15,8 @@
 
 #include "camera/camera_model.h"
 #include "core/vec.h"
-#include "scene/flight.h"
 #include "scene/effect_settings.h"
+#include "scene/flight.h"
 
 namespace skysweep::scene {
 

@@ -5,10 +5,10 @@
 
 #include "camera/pose.h"
 #include "core/error.h"
+#include "scene/effects/scene_effects.h"
 #include "scene/file/read_flight.h"
 #include "scene/file/read_products.h"
 #include "scene/file/read_values.h"
-#include "scene/effects/scene_effects.h"
 #include "settings/toml_table.h"
 
 namespace skysweep::scene {
@@ -71,7 +71,8 @@ Photographs read_photographs(const TomlTable& table) {
     throw usage_error(table.where("jpeg_quality") + " has no effect on files other than JPEG: remove it");
   read(table, "noise_sigma", out.noise_sigma, 0, 255);
   if (out.format == PhotoFormat::exr && table.has("noise_sigma"))
-    throw usage_error(table.where("noise_sigma") + " has no effect on EXR files, which hold light and no grey levels: remove it");
+    throw usage_error(table.where("noise_sigma") +
+                      " has no effect on EXR files, which hold light and no grey levels: remove it");
   read(table, "gain_spread", out.gain_spread, 0, 3);
   return out;
 }

@@ -2,11 +2,13 @@
 // Scenes as TOML files; config/scenes/ holds examples. The keys are the members of the structs in scene/scene.h:
 //
 //   seed, origin = [x, y, z], crs, area_m = [width, height]
-//   [terrain] [town] [[building]] [texture] [light] [camera] [flight] [photographs] [truth]
+//   [terrain] [town] [[building]] [texture] [light] [camera] [flight] or [[flight]] [photographs] [metadata] [truth]
+//   [ground_control]
 //   [effects.NAME] for each effect that is wanted: NAME and keys are the members of scene/effect_settings.h
 //
-// [camera] is width_px, height_px, focal_px and, if wanted, principal_point_px = [cx, cy] and
-// distortion = [k1, k2, p1, p2, k3]. [town] present means a town; everything absent has the default of its member.
+// docs/scenes.md lists all keys. [camera] is width_px, height_px, focal_px and, if wanted, focal_y_px,
+// principal_point_px = [cx, cy] and distortion = [k1, k2, p1, p2, k3]. [town] present means a town; everything absent
+// has the default of its member.
 #pragma once
 
 #include <filesystem>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "scene/effects/scene_effects.h"
 #include "scene/file/flight_json.h"
 #include "scene/file/products_json.h"
-#include "scene/effects/scene_effects.h"
 #include "scene/scene_file.h"
 
 namespace skysweep::scene {

@@ -21,6 +21,7 @@
 #include "scene/flight_plan.h"
 #include "scene/metadata.h"
 #include "scene/products.h"
+#include "scene/render/memory_plan.h"
 #include "scene/render/taken_photograph.h"
 #include "scene/render/truth.h"
 #include "scene/scene_file.h"
@@ -128,6 +129,8 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
   raster::write_bytes_atomically(folder / "scene.json", scene_to_json(scene));
 
   const PixelRays rays(scene.camera);
+  const TruthGrid grid = truth_grid(scene);
+  if (options.begin) options.begin(static_cast<int>(poses.size()), planned_bytes(scene, grid));
   const int total = static_cast<int>(poses.size()) + 1;
   const auto report = [&](int done) {
     if (options.progress) options.progress(done, total);
@@ -156,7 +159,6 @@ Simulation simulate(const Scene& scene, const fs::path& folder, Executor& execut
     report(static_cast<int>(i) + 1);
   }
   write(poses.size() - 1, taken);
-  const TruthGrid grid = truth_grid(scene);
   write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, executor), options.software,
               folder / "truth");
   if (effects && effects->spoils_metadata()) formats::write_poses_csv(folder / "truth/poses.csv", photographs);

@@ -182,7 +182,8 @@ TEST_F(Products, depth_images_lead_to_the_true_surface) {
       const Vec3d ray = *camera.ray({column + 0.5, row + 0.5});
       const Vec3d p = camera.pose().center + (z(column, row) / dot(ray, camera.pose().view_direction())) * ray;
       const Vec2d nw = dsm.georeference.north_west_corner;
-      const int x = static_cast<int>(std::floor((p.x - nw.x) / 0.05)), y = static_cast<int>(std::floor((nw.y - p.y) / 0.05));
+      const int x = static_cast<int>(std::floor((p.x - nw.x) / 0.05)),
+                y = static_cast<int>(std::floor((nw.y - p.y) / 0.05));
       if (!dsm.values.contains(x - 1, y - 1) || !dsm.values.contains(x + 1, y + 1)) continue;
       float highest = dsm.values(x, y);  // of the neighbourhood: an edge may lie within the cell
       for (int k = 0; k < 9; ++k) highest = std::max(highest, dsm.values(x + k % 3 - 1, y + k / 3 - 1));
@@ -254,8 +255,7 @@ TEST_F(Products, metadata_says_where_and_how_each_photograph_was_taken) {
       if (i > 0) way_m += norm(expected.pose.center - poses.images[i - 1].pose.center);
       const int milliseconds = static_cast<int>(std::lround(way_m / 4 * 1000));
       char time[40];
-      std::snprintf(time, sizeof time, "2026:03:01 09:%02d:%02d", 30 + milliseconds / 60000,
-                    milliseconds / 1000 % 60);
+      std::snprintf(time, sizeof time, "2026:03:01 09:%02d:%02d", 30 + milliseconds / 60000, milliseconds / 1000 % 60);
       EXPECT_EQ(exif["Exif.Photo.DateTimeOriginal"].toString(), time);
       EXPECT_NEAR(std::stoi(exif["Exif.Photo.SubSecTimeOriginal"].toString()), milliseconds % 1000, 1);
     }
@@ -336,7 +336,8 @@ TEST(ProductsFile, what_a_scene_names_stands_in_its_json) {
       std::string(kScene) + "[metadata]\nstart = \"2026-03-01T09:30:05\"\n[truth]\ntie_points = 7\ndepth = true\n"
                             "[ground_control]\npoints = 9\n",
       "s.toml"));
-  for (const char* part : {"\"start\": \"2026-03-01T09:30:05\"", "\"tie_points\": 7", "\"depth\": true", "\"points\": 9"})
+  for (const char* part :
+       {"\"start\": \"2026-03-01T09:30:05\"", "\"tie_points\": 7", "\"depth\": true", "\"points\": 9"})
     EXPECT_NE(json.find(part), std::string::npos) << part;
   const std::string plain = scene_to_json(parse_scene(kScene, "s.toml"));
   for (const char* part : {"metadata", "tie_points", "depth", "ground_control"})

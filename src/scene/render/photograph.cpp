@@ -158,9 +158,8 @@ Array2d<LinearRgb> take_linear_photograph(const World& world, const camera::Came
                                           const camera::Pose& pose, const Exposure& exposure, Executor& executor,
                                           const PhotographEffects* effects) {
   Array2d<LinearRgb> photo(model.width_px, model.height_px);
-  for_each_pixel(
-      world, model, rays, pose, exposure, executor, effects,
-      [&](int column, int row, LinearRgb light, float gain) { photo(column, row) = gain * light; });
+  for_each_pixel(world, model, rays, pose, exposure, executor, effects,
+                 [&](int column, int row, LinearRgb light, float gain) { photo(column, row) = gain * light; });
   return photo;
 }
 

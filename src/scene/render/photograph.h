@@ -25,8 +25,8 @@ Array2d<Rgb8> take_photograph(const World& world, const camera::CameraModel& mod
                               const camera::Pose& pose, const Exposure& exposure, Executor& executor,
                               const PhotographEffects* effects = nullptr);
 
-// The same as linear light times exposure.gain, without noise_sigma, which is noise of grey levels. Black where the lens
-// model does not reach.
+// The same as linear light times exposure.gain, without noise_sigma, which is noise of grey levels. Black where the
+// lens model does not reach.
 Array2d<LinearRgb> take_linear_photograph(const World& world, const camera::CameraModel& model, const PixelRays& rays,
                                           const camera::Pose& pose, const Exposure& exposure, Executor& executor,
                                           const PhotographEffects* effects = nullptr);

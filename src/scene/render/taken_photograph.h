@@ -11,9 +11,9 @@
 namespace skysweep::scene {
 
 struct TakenPhotograph {
-  Array2d<Rgb8> levels;     // of all formats but EXR
+  Array2d<Rgb8> levels;      // of all formats but EXR
   Array2d<LinearRgb> light;  // of EXR
-  Array2d<float> depth;     // empty unless the scene asks for it
+  Array2d<float> depth;      // empty unless the scene asks for it
 };
 
 TakenPhotograph take(const Scene& scene, const World& world, const PixelRays& rays, const camera::Pose& pose,

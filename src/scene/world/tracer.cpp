@@ -101,6 +101,27 @@ double to_plane(const Ray& ray, Vec3d normal, Vec3d point) {
   return dot(normal, point - ray.origin) / dot(normal, ray.direction);
 }
 
+// All 16 lanes are set, so that a packet may be copied.
+void prepare(const Ray* rays, int count, RTCRayHit16& packet, int* valid) {
+  for (int i = 0; i < Tracer::kBatch; ++i) {
+    const Ray& ray = rays[i < count ? i : 0];
+    valid[i] = i < count ? -1 : 0;
+    packet.ray.org_x[i] = static_cast<float>(ray.origin.x);
+    packet.ray.org_y[i] = static_cast<float>(ray.origin.y);
+    packet.ray.org_z[i] = static_cast<float>(ray.origin.z);
+    packet.ray.dir_x[i] = static_cast<float>(ray.direction.x);
+    packet.ray.dir_y[i] = static_cast<float>(ray.direction.y);
+    packet.ray.dir_z[i] = static_cast<float>(ray.direction.z);
+    packet.ray.tnear[i] = 0;
+    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    packet.ray.time[i] = 0;
+    packet.ray.mask[i] = ~0u;
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
 }  // namespace
 
 struct Tracer::Embree {
@@ -137,24 +158,9 @@ Tracer::~Tracer() = default;
 
 void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
   SKY_CHECK_LE(count, kBatch);
-  alignas(64) int valid[kBatch] = {};
+  alignas(64) int valid[kBatch];
   RTCRayHit16 packet;
-  for (int i = 0; i < count; ++i) {
-    valid[i] = -1;
-    packet.ray.org_x[i] = static_cast<float>(rays[i].origin.x);
-    packet.ray.org_y[i] = static_cast<float>(rays[i].origin.y);
-    packet.ray.org_z[i] = static_cast<float>(rays[i].origin.z);
-    packet.ray.dir_x[i] = static_cast<float>(rays[i].direction.x);
-    packet.ray.dir_y[i] = static_cast<float>(rays[i].direction.y);
-    packet.ray.dir_z[i] = static_cast<float>(rays[i].direction.z);
-    packet.ray.tnear[i] = 0;
-    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    packet.ray.time[i] = 0;
-    packet.ray.mask[i] = ~0u;
-    packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
+  prepare(rays, count, packet, valid);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -219,6 +225,30 @@ void Tracer::blocked(const Ray* rays, const bool* active, int count, bool endles
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded16(valid, embree_->scene, &context, &packet);
   for (int i = 0; i < count; ++i) out[i] = active[i] && packet.tfar[i] < 0;
+}
+
+std::function<int()> Tracer::embree_alone(const std::vector<Ray>& rays) const {
+  struct Packet {
+    RTCRayHit16 rays;
+    alignas(64) int valid[kBatch];
+  };
+  std::vector<Packet> packets((rays.size() + kBatch - 1) / kBatch);
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const int count = static_cast<int>(std::min<std::size_t>(kBatch, rays.size() - i * kBatch));
+    prepare(rays.data() + i * kBatch, count, packets[i].rays, packets[i].valid);
+  }
+  return [packets, scene = embree_->scene] {
+    int hits = 0;
+    for (const Packet& packet : packets) {
+      RTCRayHit16 traced = packet.rays;
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+      rtcIntersect16(packet.valid, scene, &context, &traced);
+      for (int i = 0; i < kBatch; ++i) hits += packet.valid[i] && traced.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    }
+    return hits;
+  };
 }
 
 }  // namespace skysweep::scene
