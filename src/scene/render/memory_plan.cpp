@@ -4,6 +4,12 @@
 #include <algorithm>
 
 namespace skysweep::scene {
+namespace {
+
+// GDAL, OpenCV and their threads: measured with the demo town.
+constexpr std::uint64_t kLibraries = 32ull << 20;
+
+}  // namespace
 
 std::uint64_t planned_bytes(const Scene& scene, const TruthGrid& grid) {
   const auto count = [](int width, int height) {
@@ -17,7 +23,7 @@ std::uint64_t planned_bytes(const Scene& scene, const TruthGrid& grid) {
   const std::uint64_t of_depth = scene.truth.depth ? 4 * sizeof(float) : 0;
   // The layers, and one of them once more while it is written.
   const std::uint64_t of_truth = 2 * sizeof(float) + sizeof(Rgba8) + sizeof(std::uint8_t);
-  return std::max(pixels * (of_photograph + of_depth), cells * of_truth);
+  return kLibraries + std::max(pixels * (of_photograph + of_depth), cells * of_truth);
 }
 
 }  // namespace skysweep::scene

@@ -8,8 +8,8 @@
 
 namespace skysweep::scene {
 
-// Bytes, at their highest: two photographs (one rendered, one encoded) with their encoder's copies, or the truth. A
-// library may add its own buffers, some megabytes.
+// Bytes, at their highest: two photographs (one rendered, one encoded) with their encoder's copies, or the truth; and
+// what the libraries hold once they encode and write.
 std::uint64_t planned_bytes(const Scene& scene, const TruthGrid& grid);
 
 }  // namespace skysweep::scene
