@@ -292,6 +292,28 @@ TEST(Simulate, a_flight_below_the_roofs_and_an_unknown_crs_are_refused_before_an
   EXPECT_FALSE(fs::exists(folder));
 }
 
+TEST(Simulate, an_orbit_may_pass_below_a_roof_but_not_through_the_building) {
+  Scene scene = one_building();
+  scene.flight = {};
+  scene.flight.pattern = FlightPattern::orbit;
+  scene.flight.target = {10, 8, 0};
+  scene.flight.altitudes_m = {4};  // the roof is at 5.5
+  scene.flight.photographs = 4;
+  scene.flight.radius_m = 12;
+  SerialExecutor executor;
+  EXPECT_EQ(simulate(scene, fresh_folder("beside"), executor).photographs, 4);
+  scene.flight.radius_m = 2;  // east and west of the target that is inside
+  const fs::path folder = fresh_folder("through");
+  try {
+    simulate(scene, folder, executor);
+    ADD_FAILURE() << "flown through a building";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("below the surface at its place"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST(Simulate, what_it_will_hold_is_said_before_the_first_photograph) {
   const auto said = [](const Scene& scene) {
     std::vector<std::string> order;
