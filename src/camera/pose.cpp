@@ -62,6 +62,23 @@ Mat3d rotation_from_yaw_pitch_roll(double yaw_deg, double pitch_deg, double roll
   return {{right.x, right.y, right.z, down.x, down.y, down.z, forward.x, forward.y, forward.z}};
 }
 
+GimbalAngles yaw_pitch_roll_from_rotation(const Mat3d& cam_from_world) {
+  const Vec3d right = cam_from_world.row(0), down = cam_from_world.row(1), view = cam_from_world.row(2);
+  const double level = std::hypot(view.x, view.y);
+  constexpr double kVertical = 1e-12;
+  if (level < kVertical) {
+    // Straight down the top of the photograph shows the yaw, straight up its bottom does.
+    const double sign = view.z < 0 ? -1 : 1;
+    return {std::atan2(sign * down.x, sign * down.y) / kRadians, view.z < 0 ? -90. : 90., 0};
+  }
+  // The horizon's right in the photograph; turned round if the photograph stands on its head.
+  const Vec3d level_right{view.y / level, -view.x / level, 0};
+  const double sign = dot(right, level_right) < 0 ? -1 : 1;
+  const Vec3d level_down = sign * cross(view, level_right);
+  return {std::atan2(sign * view.x, sign * view.y) / kRadians, std::atan2(view.z, sign * level) / kRadians,
+          std::atan2(dot(right, level_down), sign * dot(right, level_right)) / kRadians};
+}
+
 Mat3d rotation_from_omega_phi_kappa(double omega_deg, double phi_deg, double kappa_deg) {
   const auto [so, co] = sin_cos_deg(omega_deg);
   const auto [sp, cp] = sin_cos_deg(phi_deg);

@@ -34,6 +34,13 @@ std::optional<Mat3d> rotation_from_quaternion(double qw, double qx, double qy, d
 // the view direction.
 Mat3d rotation_from_yaw_pitch_roll(double yaw_deg, double pitch_deg, double roll_deg);
 
+struct GimbalAngles {
+  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+};
+// The same angles from a rotation: yaw from -180 to 180, roll from -90 to 90, pitch whatever it then is (below -90 for
+// a camera that looks down and back). Exactly at the vertical, where only one of yaw and roll is fixed, roll is 0.
+GimbalAngles yaw_pitch_roll_from_rotation(const Mat3d& cam_from_world);
+
 // World-to-camera rotation from the angles of aerial photogrammetry, in degrees: the rotation from the image frame
 // (x right, y up, z backwards) to the world is Rx(omega) Ry(phi) Rz(kappa); all zero looks down, top to the north.
 Mat3d rotation_from_omega_phi_kappa(double omega_deg, double phi_deg, double kappa_deg);

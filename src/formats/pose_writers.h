@@ -13,10 +13,15 @@
 
 namespace skysweep::formats {
 
-// A point of a sparse model as it is written, without observations.
+// A point of a sparse model as it is written.
 struct SparsePoint {
+  struct Observation {
+    std::size_t image = 0;  // index into the images written with it
+    Vec2d pixel;
+  };
   Vec3d position;
   Rgb8 color;
+  std::vector<Observation> track = {};  // may be empty
 };
 
 // One row per image: quaternion and camera in pixels. Throws Error(failed) if the file cannot be written, and

@@ -4,6 +4,7 @@
 #include <ogr_spatialref.h>
 
 #include <cmath>
+#include <memory>
 
 #include "core/error.h"
 #include "raster/gdal/session.h"
@@ -102,6 +103,27 @@ bool same_crs(const std::string& wkt_a, const std::string& wkt_b) {
   const GdalSession gdal;
   const OGRSpatialReference b = spatial_reference_of(wkt_b);
   return spatial_reference_of(wkt_a).IsSame(&b) != 0;
+}
+
+std::optional<std::vector<Wgs84Position>> wgs84_positions(const std::string& wkt, const std::vector<Vec2d>& places) {
+  const GdalSession gdal;
+  const OGRSpatialReference from = spatial_reference_of(wkt);
+  if (from.IsLocal()) return std::nullopt;
+  OGRSpatialReference to;
+  to.SetWellKnownGeogCS("WGS84");
+  to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);  // longitude, latitude
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(OGRCreateCoordinateTransformation(&from, &to));
+  if (!transformation)
+    throw usage_error("there is no way from " + crs_name(wkt) + " to WGS 84: " + gdal.reason("PROJ"));
+  std::vector<Wgs84Position> out;
+  for (const Vec2d place : places) {
+    double x = place.x, y = place.y;
+    if (!transformation->Transform(1, &x, &y) || !std::isfinite(x) || !std::isfinite(y))
+      throw usage_error("the place " + std::to_string(place.x) + ", " + std::to_string(place.y) +
+                        " lies outside of what " + crs_name(wkt) + " covers");
+    out.push_back({y, x});
+  }
+  return out;
 }
 
 std::string vertical_reference(const std::string& wkt) {

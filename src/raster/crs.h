@@ -2,7 +2,11 @@
 // Coordinate reference systems (through GDAL and PROJ). The program works in projected metric systems only.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "core/vec.h"
 
 namespace skysweep::raster {
 
@@ -18,6 +22,14 @@ std::string crs_name(const std::string& wkt);
 
 // Whether both name the same system (axes as in GIS files).
 bool same_crs(const std::string& wkt_a, const std::string& wkt_b);
+
+struct Wgs84Position {
+  double latitude_deg = 0, longitude_deg = 0;  // north and east positive
+};
+
+// Where places of a system (easting, northing) lie on Earth, through PROJ; nothing for a local frame. Throws
+// Error(usage) for a place that the system does not reach.
+std::optional<std::vector<Wgs84Position>> wgs84_positions(const std::string& wkt, const std::vector<Vec2d>& places);
 
 // What the outputs say about heights: from a compound CRS its vertical part, otherwise that it is unknown.
 std::string vertical_reference(const std::string& wkt);

@@ -117,7 +117,7 @@ PhotoSize read_photo_size(const fs::path& path) {
   return {image->GetRasterXSize(), image->GetRasterYSize()};
 }
 
-void write_image(const fs::path& path, const Array2d<Rgb8>& image, int jpeg_quality) {
+std::string encode_image(const fs::path& path, const Array2d<Rgb8>& image, int jpeg_quality) {
   SKY_CHECK(!image.empty());
   keep_opencv_quiet();
   cv::Mat bgr(image.height(), image.width(), CV_8UC3);
@@ -136,7 +136,11 @@ void write_image(const fs::path& path, const Array2d<Rgb8>& image, int jpeg_qual
   } catch (const cv::Exception&) {
   }
   if (!encoded) throw usage_error("cannot write " + path.string() + ": let its name end in .png, .jpg or .tif");
-  write_bytes_atomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void write_image(const fs::path& path, const Array2d<Rgb8>& image, int jpeg_quality) {
+  write_bytes_atomically(path, encode_image(path, image, jpeg_quality));
 }
 
 }  // namespace skysweep::raster

@@ -31,6 +31,9 @@ PhotoSize read_photo_size(const std::filesystem::path& path);
 // can be refused by name); hidden files and folders are left out. Throws Error(bad_input) if the folder is missing.
 std::vector<std::string> list_photos(const std::filesystem::path& folder);
 
+// The bytes of an image in the format of the path's ending (PNG, JPEG, TIFF); nothing is written.
+std::string encode_image(const std::filesystem::path& path, const Array2d<Rgb8>& image, int jpeg_quality = 95);
+
 // Writes an image in the format of the path's ending (PNG, JPEG, TIFF), atomically.
 void write_image(const std::filesystem::path& path, const Array2d<Rgb8>& image, int jpeg_quality = 95);
 

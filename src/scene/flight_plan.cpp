@@ -2,65 +2,51 @@
 #include "scene/flight_plan.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "camera/camera.h"
-#include "core/random.h"
+#include "scene/flight/deviation.h"
+#include "scene/flight/patterns.h"
 #include "scene/world/ground.h"
 
 namespace skysweep::scene {
 namespace {
 
-constexpr std::uint64_t kFlightStream = 0xf1;
+std::vector<camera::Pose> poses_of(const Scene& scene, const Flight& flight, int number) {
+  if (flight.pattern == FlightPattern::given) return flight.poses;
+  Deviations deviations(flight, scene.seed, number);
+  std::vector<camera::Pose> poses;
+  for (const double altitude : flight.resolved_altitudes_m(scene.camera.focal_px())) {
+    const std::vector<camera::Pose> level = flight.pattern == FlightPattern::orbit
+                                                ? fly_orbit(flight, altitude, deviations)
+                                                : fly_strips(scene, flight, altitude, deviations);
+    poses.insert(poses.end(), level.begin(), level.end());
+  }
+  return poses;
+}
 
-// Positions from -reach to reach, not further apart than `spacing`; one in the middle if there is no reach.
-std::vector<double> spread(double reach, double spacing) {
-  if (!(reach > 0)) return {0};
-  const int intervals = std::max(1, static_cast<int>(std::ceil(2 * reach / spacing - 1e-9)));
-  std::vector<double> out;
-  for (int i = 0; i <= intervals; ++i) out.push_back(-reach + 2 * reach * i / intervals);
-  return out;
+double highest_altitude_m(const Scene& scene) {
+  double highest = 0;
+  for (const Flight* flight : scene.flights())
+    for (const double altitude : flight->resolved_altitudes_m(scene.camera.focal_px()))
+      highest = std::max(highest, altitude);
+  return highest;
 }
 
 }  // namespace
 
 std::vector<camera::Pose> plan_flight(const Scene& scene) {
-  const Flight& flight = scene.flight;
-  const double heading = flight.heading_deg * std::numbers::pi / 180;
-  const Vec2d forward{std::sin(heading), std::cos(heading)}, right{std::cos(heading), -std::sin(heading)};
-  const Vec2d center = 0.5 * scene.area_m;
-  // Half the extent of the area in and across the direction of flight.
-  const double along_reach =
-      0.5 * (std::abs(forward.x) * scene.area_m.x + std::abs(forward.y) * scene.area_m.y) + flight.beyond_area_m;
-  const double across_reach =
-      0.5 * (std::abs(right.x) * scene.area_m.x + std::abs(right.y) * scene.area_m.y) + flight.beyond_area_m;
-  const double along_spacing = (1 - flight.along_overlap) * scene.camera.height_px * flight.gsd_m;
-  const double across_spacing = (1 - flight.across_overlap) * scene.camera.width_px * flight.gsd_m;
-
-  Random random(mix64(scene.seed) ^ kFlightStream);
   std::vector<camera::Pose> poses;
-  bool outbound = true;
-  for (const double across : spread(across_reach, across_spacing)) {
-    for (const double step : spread(along_reach, along_spacing)) {
-      const double along = outbound ? step : -step;
-      const Vec2d ground = center + along * forward + across * right;
-      // Drawn whether used or not, so that one kind of scatter does not change the other.
-      const Vec3d offset{random.normal(), random.normal(), random.normal()};
-      const Vec3d turn{random.normal(), random.normal(), random.normal()};
-      const double yaw = flight.heading_deg + (outbound ? 0 : 180) + 2 * flight.tilt_sigma_deg * turn.x;
-      const double pitch = -90 + flight.off_nadir_deg + flight.tilt_sigma_deg * turn.y;
-      const double roll = flight.tilt_sigma_deg * turn.z;
-      const Vec3d position = Vec3d{ground.x, ground.y, scene.altitude_m()} + flight.position_sigma_m * offset;
-      poses.push_back({camera::rotation_from_yaw_pitch_roll(yaw, pitch, roll), camera::snap_position(position)});
-    }
-    outbound = !outbound;
+  int number = 0;
+  for (const Flight* flight : scene.flights()) {
+    const std::vector<camera::Pose> more = poses_of(scene, *flight, number++);
+    poses.insert(poses.end(), more.begin(), more.end());
   }
   return poses;
 }
 
 Box2d visible_ground(const Scene& scene, const std::vector<camera::Pose>& poses) {
   constexpr double kFarthest = 6;  // altitudes: ground beyond is sky
+  const double farthest_m = kFarthest * highest_altitude_m(scene);
   const Ground ground(scene);
   Box2d box{{0, 0}, scene.area_m};
   // How far they see depends on the heights there, and these on how far they see: on a slope that goes on and on.
@@ -69,8 +55,7 @@ Box2d visible_ground(const Scene& scene, const std::vector<camera::Pose>& poses)
     const Box2d before = box;
     const HeightRange heights = ground.heights(before);
     for (const camera::Pose& pose : poses)
-      for (const Vec2d p :
-           camera::footprint({scene.camera, pose}, heights.lowest - 1, heights.highest, kFarthest * scene.altitude_m()))
+      for (const Vec2d p : camera::footprint({scene.camera, pose}, heights.lowest - 1, heights.highest, farthest_m))
         box.extend(p);
     const HeightRange seen = ground.heights(box);
     if (seen.lowest >= heights.lowest && seen.highest <= heights.highest) break;

@@ -7,6 +7,7 @@
 // byte of the result.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,8 @@
 
 #include "camera/camera_model.h"
 #include "core/vec.h"
+#include "scene/effect_settings.h"
+#include "scene/flight.h"
 #include "scene/objects.h"
 #include "scene/terrain.h"
 
@@ -44,20 +47,9 @@ struct Light {
   bool shadows = true;  // whether buildings and ground cast them
 };
 
-// Parallel strips, flown to and fro, with the top of the photographs in the direction of flight. Strips and views are
-// spread evenly, at least as dense as the overlaps ask for.
-struct Flight {
-  double gsd_m = 0.05;          // at mean ground height; altitude = gsd x focal length in pixels
-  double along_overlap = 0.8;   // of consecutive photographs of a strip, 0 to below 1
-  double across_overlap = 0.7;  // of neighbouring strips
-  double heading_deg = 0;       // of the strips, clockwise from north
-  double beyond_area_m = 0;     // how far the outermost positions lie outside the mapped area; negative: inside
-  double off_nadir_deg = 0;     // all photographs look forward by this angle
-  double tilt_sigma_deg = 0;    // seeded scatter of roll and pitch; of yaw: twice that
-  double position_sigma_m = 0;  // seeded scatter of each coordinate
-};
-
-enum class PhotoFormat { jpeg, png };
+enum class PhotoFormat { jpeg, png, tiff, exr };  // EXR: linear light as floats
+// Ending of its files, without the dot; also the word for it in scene files.
+std::string file_ending(PhotoFormat format);
 
 // What the camera makes of the light. Effects that are zero cost nothing and change no byte.
 struct Photographs {
@@ -67,8 +59,23 @@ struct Photographs {
   double gain_spread = 0;  // standard deviation of the logarithm of each photograph's exposure
 };
 
+// EXIF and XMP tags as a drone writes them (formats/photo_metadata.h). Positions need a scene with a crs.
+struct Metadata {
+  std::string make = "Skysweep", model = "simulated camera";
+  double sensor_width_mm = 13.2;  // turns the focal length into millimetres
+  std::chrono::sys_seconds start = std::chrono::sys_days{std::chrono::year{2026} / 6 / 21} + std::chrono::hours(10);
+  double speed_mps = 8;  // from photograph to photograph: gives the times
+};
+
 struct Truth {
-  double cell_m = 0;  // of the truth rasters; 0: twice the GSD, rounded to two digits
+  double cell_m = 0;     // of the truth rasters; 0: twice the GSD, rounded to two digits
+  int tie_points = 400;  // places looked at for points of the COLMAP model; kept are those that three photographs see
+  bool depth = false;    // a depth image of every photograph
+};
+
+// Points of known position on open ground, for gcp_list.txt.
+struct GroundControl {
+  int points = 12;  // places looked at; kept are those on open ground that three photographs see
 };
 
 struct Scene {
@@ -84,14 +91,21 @@ struct Scene {
   Light light;
   camera::CameraModel camera;
   Flight flight;
+  std::vector<Flight> further_flights;  // flown after it, with the same camera
   Photographs photographs;
+  std::optional<Metadata> metadata;
+  Effects effects;
   Truth truth;
+  std::optional<GroundControl> ground_control;
 
   // Defaults that depend on other members, resolved.
   double finest_detail_m() const;
   double truth_cell_m() const;
-  double facade_edge_reach_m() const { return 8 * flight.gsd_m; }         // of the class map: 0.4 m at 5 cm
-  double altitude_m() const { return flight.gsd_m * camera.focal_px(); }  // above z = 0
+  double facade_edge_reach_m() const { return 8 * gsd_m(); }  // of the class map: 0.4 m at 5 cm
+  // All flights, in the order they are flown; valid as long as the scene is.
+  std::vector<const Flight*> flights() const;
+  double gsd_m() const;       // the finest of all flights
+  double altitude_m() const;  // the first of the first flight, above z = 0
 };
 
 }  // namespace skysweep::scene

@@ -5,7 +5,10 @@
 
 #include "camera/pose.h"
 #include "core/error.h"
+#include "scene/effects/scene_effects.h"
+#include "scene/file/read_flight.h"
 #include "scene/file/read_objects.h"
+#include "scene/file/read_products.h"
 #include "scene/file/read_terrain.h"
 #include "scene/file/read_values.h"
 #include "settings/toml_table.h"
@@ -21,52 +24,24 @@ Light read_light(const TomlTable& table) {
   return out;
 }
 
-camera::CameraModel read_camera(const TomlTable& table, const std::string& file) {
-  camera::CameraModel out;
-  required(table.integer("width_px"), "camera.width_px", file);
-  required(table.integer("height_px"), "camera.height_px", file);
-  read(table, "width_px", out.width_px, 1, 100000);
-  read(table, "height_px", out.height_px, 1, 100000);
-  out.fx_px = required(table.number("focal_px"), "camera.focal_px", file);
-  read(table, "focal_px", out.fx_px, kTiny);
-  out.fy_px = out.fx_px;
-  out.cx_px = 0.5 * out.width_px;
-  out.cy_px = 0.5 * out.height_px;
-  if (const auto c = read_numbers(table, "principal_point_px", 2)) out.cx_px = (*c)[0], out.cy_px = (*c)[1];
-  if (const auto d = read_numbers(table, "distortion", 5))
-    out.distortion = {(*d)[0], (*d)[1], (*d)[2], (*d)[3], (*d)[4]};
-  return out;
-}
-
-Flight read_flight(const TomlTable& table) {
-  Flight out;
-  read(table, "gsd_m", out.gsd_m, kTiny);
-  read(table, "along_overlap", out.along_overlap, 0, 0.99);
-  read(table, "across_overlap", out.across_overlap, 0, 0.99);
-  read(table, "heading_deg", out.heading_deg, -360, 360);
-  read(table, "beyond_area_m", out.beyond_area_m);
-  read(table, "off_nadir_deg", out.off_nadir_deg, 0, 89);
-  read(table, "tilt_sigma_deg", out.tilt_sigma_deg, 0, 45);
-  read(table, "position_sigma_m", out.position_sigma_m, 0);
-  return out;
-}
-
 Photographs read_photographs(const TomlTable& table) {
   Photographs out;
   if (const auto format = table.string("format")) {
-    if (*format != "jpg" && *format != "png")
-      throw usage_error(table.where("format") + " must be \"jpg\" or \"png\", not \"" + *format + "\"");
-    out.format = *format == "png" ? PhotoFormat::png : PhotoFormat::jpeg;
+    out.format = read_photo_format(table, *format);
   }
   read(table, "jpeg_quality", out.jpeg_quality, 1, 100);
-  if (out.format == PhotoFormat::png && table.has("jpeg_quality"))
-    throw usage_error(table.where("jpeg_quality") + " has no effect on PNG files: remove it");
+  if (out.format != PhotoFormat::jpeg && table.has("jpeg_quality"))
+    throw usage_error(table.where("jpeg_quality") + " has no effect on files other than JPEG: remove it");
   read(table, "noise_sigma", out.noise_sigma, 0, 255);
+  if (out.format == PhotoFormat::exr && table.has("noise_sigma"))
+    throw usage_error(table.where("noise_sigma") +
+                      " has no effect on EXR files, which hold light and no grey levels: remove it");
   read(table, "gain_spread", out.gain_spread, 0, 3);
   return out;
 }
 
-Scene scene_from(const TomlTable& file, const std::string& name) {
+// `folder`: what paths in the file are relative to.
+Scene scene_from(const TomlTable& file, const std::filesystem::path& folder, const std::string& name) {
   Scene out;
   if (const auto seed = file.integer("seed")) out.seed = static_cast<std::uint64_t>(*seed);
   if (const auto o = read_numbers(file, "origin", 3)) out.origin = camera::snap_position({(*o)[0], (*o)[1], (*o)[2]});
@@ -78,10 +53,10 @@ Scene scene_from(const TomlTable& file, const std::string& name) {
   out.things = read_things(file, name);
   if (const auto table = file.table("texture")) out.texture = read_texture(*table);
   if (const auto table = file.table("light")) out.light = read_light(*table);
-  out.camera = read_camera(required(file.table("camera"), "the table [camera]", name), name);
-  if (const auto table = file.table("flight")) out.flight = read_flight(*table);
+  read_camera_and_flights(file, folder, name, out);
   if (const auto table = file.table("photographs")) out.photographs = read_photographs(*table);
-  if (const auto table = file.table("truth")) read(*table, "cell_m", out.truth.cell_m, kTiny);
+  read_products(file, out);
+  if (const auto table = file.table("effects")) out.effects = read_effects(*table);
   file.refuse_unknown();
   return out;
 }
@@ -89,13 +64,13 @@ Scene scene_from(const TomlTable& file, const std::string& name) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& path) {
-  Scene scene = scene_from(TomlTable::read_file(path), path.filename().string());
+  Scene scene = scene_from(TomlTable::read_file(path), path.parent_path(), path.filename().string());
   resolve_files(scene, path.parent_path());
   return scene;
 }
 
 Scene parse_scene(const std::string& text, const std::string& name) {
-  return scene_from(TomlTable::parse(text, name), name);
+  return scene_from(TomlTable::parse(text, name), {}, name);
 }
 
 }  // namespace skysweep::scene

@@ -3,13 +3,15 @@
 //
 //   seed, origin = [x, y, z], crs, area_m = [width, height]
 //   [terrain] [[terrain.modification]] [town] [[building]] [[tree]] [forest] [[wall]] [[bridge]] [[mast]]
-//   [[power_line]] [texture] [light] [camera] [flight] [photographs] [truth]
+//   [[power_line]] [texture] [light] [camera] [flight] or [[flight]] [photographs] [metadata] [truth] [ground_control]
+//   [effects.NAME] for each effect that is wanted: NAME and keys are the members of scene/effect_settings.h
 //
-// [terrain] kind and [texture] kind say which further keys these tables have: docs/scenes.md lists them. Files that a
-// scene names are relative to its own folder.
+// [terrain] kind and [texture] kind say which further keys these tables have. Files that a scene names are relative to
+// its own folder.
 //
-// [camera] is width_px, height_px, focal_px and, if wanted, principal_point_px = [cx, cy] and
-// distortion = [k1, k2, p1, p2, k3]. [town] present means a town; everything absent has the default of its member.
+// docs/scenes.md lists all keys. [camera] is width_px, height_px, focal_px and, if wanted, focal_y_px,
+// principal_point_px = [cx, cy] and distortion = [k1, k2, p1, p2, k3]. [town] present means a town; everything absent
+// has the default of its member.
 #pragma once
 
 #include <filesystem>

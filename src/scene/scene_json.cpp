@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "scene/effects/scene_effects.h"
+#include "scene/file/flight_json.h"
 #include "scene/file/objects_json.h"
+#include "scene/file/products_json.h"
 #include "scene/file/terrain_json.h"
 #include "scene/scene_file.h"
 
@@ -11,28 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json pair(Vec2d v) { return {v.x, v.y}; }
-
-Json camera_json(const camera::CameraModel& c) {
-  const camera::Distortion& d = c.distortion;
-  return {{"width_px", c.width_px},
-          {"height_px", c.height_px},
-          {"focal_px", c.focal_px()},
-          {"principal_point_px", {c.cx_px, c.cy_px}},
-          {"distortion", {d.k1, d.k2, d.p1, d.p2, d.k3}}};
-}
-
-Json flight_json(const Scene& scene) {
-  const Flight& f = scene.flight;
-  return {{"gsd_m", f.gsd_m},
-          {"altitude_m", scene.altitude_m()},
-          {"along_overlap", f.along_overlap},
-          {"across_overlap", f.across_overlap},
-          {"heading_deg", f.heading_deg},
-          {"beyond_area_m", f.beyond_area_m},
-          {"off_nadir_deg", f.off_nadir_deg},
-          {"tilt_sigma_deg", f.tilt_sigma_deg},
-          {"position_sigma_m", f.position_sigma_m}};
-}
 
 }  // namespace
 
@@ -53,12 +34,13 @@ std::string scene_to_json(const Scene& scene) {
                   {"sun_elevation_deg", scene.light.sun_elevation_deg},
                   {"shadows", scene.light.shadows}};
   out["camera"] = camera_json(scene.camera);
-  out["flight"] = flight_json(scene);
-  out["photographs"] = {{"format", scene.photographs.format == PhotoFormat::png ? "png" : "jpg"},
+  out["flight"] = flights_json(scene);
+  out["photographs"] = {{"format", file_ending(scene.photographs.format)},
                         {"jpeg_quality", scene.photographs.jpeg_quality},
                         {"noise_sigma", scene.photographs.noise_sigma},
                         {"gain_spread", scene.photographs.gain_spread}};
-  out["truth"] = {{"cell_m", scene.truth_cell_m()}};
+  add_products_json(scene, out);
+  if (const Json effects = effects_json(scene.effects); !effects.empty()) out["effects"] = effects;
   return out.dump(2) + "\n";
 }
 

@@ -16,9 +16,14 @@
 #include "raster/crs.h"
 #include "raster/digest.h"
 #include "raster/photo.h"
+#include "scene/effects/scene_effects.h"
+#include "scene/flight/clearance.h"
 #include "scene/flight_plan.h"
+#include "scene/metadata.h"
+#include "scene/products.h"
 #include "scene/render/class_map.h"
-#include "scene/render/photograph.h"
+#include "scene/render/memory_plan.h"
+#include "scene/render/taken_photograph.h"
 #include "scene/render/truth.h"
 #include "scene/scene_file.h"
 #include "scene/world/world.h"
@@ -46,6 +51,9 @@ void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses,
   constexpr double kMostVisible_m = 1e5;
   if (std::max(visible.width(), visible.height()) > kMostVisible_m)
     throw usage_error("the photographs of the scene see more than 100 km of ground: fly lower or look down more");
+  const std::vector<const Flight*> flights = scene.flights();
+  if (!std::all_of(flights.begin(), flights.end(), [](const Flight* f) { return flies_over_everything(*f); }))
+    return;  // decided place by place: require_above_surface
   const Ground ground(scene);
   const double objects = tallest_object_m(scene);
   for (const camera::Pose& pose : poses) {
@@ -62,11 +70,11 @@ void require_flyable(const Scene& scene, const std::vector<camera::Pose>& poses,
 }
 
 std::vector<formats::PosedImage> name_photographs(const Scene& scene, const std::vector<camera::Pose>& poses) {
-  const char* ending = scene.photographs.format == PhotoFormat::png ? "png" : "jpg";
+  const std::string ending = file_ending(scene.photographs.format);
   std::vector<formats::PosedImage> out;
   for (const camera::Pose& pose : poses) {
     char name[32];
-    std::snprintf(name, sizeof name, "%04d.%s", static_cast<int>(out.size()) + 1, ending);
+    std::snprintf(name, sizeof name, "%04d.%s", static_cast<int>(out.size()) + 1, ending.c_str());
     out.push_back(
         {name, scene.camera, {pose.cam_from_world, camera::snap_position(pose.center + scene.origin)}, "simulated"});
   }
@@ -114,35 +122,60 @@ void write_truth(const Scene& scene, const std::string& crs, const TruthGrid& gr
 
 Simulation simulate(const Scene& scene, const fs::path& folder, Executor& executor, const SimulationOptions& options) {
   require_usable(scene);
+  require_products_possible(scene);
+  require_metadata_possible(scene);
   const std::string crs = scene.crs.empty() ? raster::local_metric_crs() : raster::crs_from_user_input(scene.crs);
   const std::vector<camera::Pose> poses = plan_flight(scene);
   const Box2d visible = visible_ground(scene, poses);
   require_flyable(scene, poses, visible);
+  const std::unique_ptr<SceneEffects> effects = make_effects(scene, poses);
+  World world(scene, visible);
+  require_above_surface(world, poses);
+  if (effects) effects->change_world(world);
   const std::vector<formats::PosedImage> photographs = name_photographs(scene, poses);
   raster::require_writable_folder(folder);
   require_no_others(folder / "images", photographs);
-  formats::write_poses_csv(folder / "poses.csv", photographs);
-  formats::write_colmap_text(folder / "sparse", photographs);
+  const auto recorded = effects ? effects->recorded(photographs) : photographs;
+  formats::write_poses_csv(folder / "poses.csv", recorded);
   raster::write_bytes_atomically(folder / "scene.json", scene_to_json(scene));
 
-  const World world(scene, visible);
   const PixelRays rays(scene.camera);
+  const TruthGrid grid = truth_grid(scene);
+  if (options.begin) options.begin(static_cast<int>(poses.size()), planned_bytes(scene, grid));
   const int total = static_cast<int>(poses.size()) + 1;
   const auto report = [&](int done) {
     if (options.progress) options.progress(done, total);
   };
   std::vector<camera::Camera> cameras;
+  for (const camera::Pose& pose : poses) cameras.emplace_back(scene.camera, pose);
+  write_products(scene, world, recorded, cameras, folder);
+  const std::vector<formats::PhotoMetadata> metadata = metadata_of(scene, recorded, crs, options.software);
+  const auto write = [&](std::size_t i, const TakenPhotograph& photograph) {
+    write_taken(scene, photograph, photographs[i].name, metadata.empty() ? nullptr : &metadata[i], options.software,
+                folder);
+  };
+
+  // Encoding and writing take one thread: the others render the next photograph meanwhile.
+  TakenPhotograph taken;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Array2d<Rgb8> photo = take_photograph(world, scene.camera, rays, poses[i], exposure_of(scene, i), executor);
-    raster::write_image(folder / "images" / photographs[i].name, photo, scene.photographs.jpeg_quality);
-    cameras.emplace_back(scene.camera, poses[i]);
-    report(static_cast<int>(cameras.size()));
+    TakenPhotograph next;
+    const auto changes = effects ? effects->photograph(i, world) : nullptr;
+    executor.parallel_for(2, [&](int part) {
+      if (part == 1)
+        next = take(scene, world, rays, poses[i], exposure_of(scene, i), changes.get(), executor);
+      else if (i > 0)
+        write(i - 1, taken);
+    });
+    taken = std::move(next);
+    report(static_cast<int>(i) + 1);
   }
-  const TruthGrid grid = truth_grid(scene);
+  write(poses.size() - 1, taken);
   write_truth(scene, crs, grid, make_truth(world, grid, scene.origin, cameras, scene.facade_edge_reach_m(), executor),
               options.software, folder / "truth");
+  if (effects && effects->spoils_metadata()) formats::write_poses_csv(folder / "truth/poses.csv", photographs);
   report(total);
-  return {static_cast<int>(poses.size()), scene.flight.gsd_m, grid.cell_m};
+  return {static_cast<int>(poses.size()), scene.gsd_m(), grid.cell_m, effects ? effects->rays_per_pixel() : 4,
+          effects ? effects->report() : nothing_runs()};
 }
 
 }  // namespace skysweep::scene

@@ -156,6 +156,13 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
                        });
 }
 
+std::vector<TomlTable> TomlTable::one_or_more_tables(const std::string& key) const {
+  const TomlEntry* entry = ask(*node_, key);
+  if (!entry) return {};
+  if (const auto* single = std::get_if<std::shared_ptr<TomlNode>>(&entry->value.value)) return {TomlTable(*single)};
+  return tables(key);
+}
+
 void TomlTable::refuse_unknown() const { refuse_unknown_in(*node_); }
 
 TomlTable layered(const TomlTable& base, const TomlTable& over) { return TomlTable(layered(*base.node_, *over.node_)); }

@@ -30,6 +30,8 @@ class TomlTable {
   std::optional<std::vector<std::string>> strings(const std::string& key) const;
   std::optional<TomlTable> table(const std::string& key) const;
   std::vector<TomlTable> tables(const std::string& key) const;  // array of tables; empty when absent
+  // A single table or an array of tables, whichever stands there; empty when absent.
+  std::vector<TomlTable> one_or_more_tables(const std::string& key) const;
   bool has(const std::string& key) const;
 
   // "scene.toml:12: flight.altitude_m", for messages about the value of a key.

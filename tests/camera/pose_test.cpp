@@ -167,5 +167,34 @@ TEST(SnapPosition, hides_the_rounding_of_tile_origins_that_are_not_exact_in_bina
   }
 }
 
+TEST(GimbalAngles, lead_back_to_the_rotation_they_came_from) {
+  for (double yaw = -179; yaw < 180; yaw += 23)
+    for (double pitch = -120; pitch <= 90; pitch += 15)
+      for (double roll = -80; roll <= 80; roll += 20) {
+        const Mat3d r = rotation_from_yaw_pitch_roll(yaw, pitch, roll);
+        const GimbalAngles a = yaw_pitch_roll_from_rotation(r);
+        const Mat3d again = rotation_from_yaw_pitch_roll(a.yaw_deg, a.pitch_deg, a.roll_deg);
+        for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(again.m[k], r.m[k], 1e-9) << yaw << " " << pitch << " " << roll;
+      }
+}
+
+TEST(GimbalAngles, of_a_camera_that_looks_about_straight_down_are_those_it_was_given) {
+  for (const double pitch : {-88.5, -91.5}) {
+    const GimbalAngles a = yaw_pitch_roll_from_rotation(rotation_from_yaw_pitch_roll(37, pitch, 1.5));
+    EXPECT_NEAR(a.yaw_deg, 37, 1e-9);
+    EXPECT_NEAR(a.pitch_deg, pitch, 1e-9);
+    EXPECT_NEAR(a.roll_deg, 1.5, 1e-9);
+  }
+}
+
+TEST(GimbalAngles, at_the_vertical_have_no_roll) {
+  for (const double pitch : {-90., 90.}) {
+    const GimbalAngles a = yaw_pitch_roll_from_rotation(rotation_from_yaw_pitch_roll(30, pitch, 0));
+    EXPECT_NEAR(a.yaw_deg, 30, 1e-9);
+    EXPECT_EQ(a.pitch_deg, pitch);
+    EXPECT_EQ(a.roll_deg, 0);
+  }
+}
+
 }  // namespace
 }  // namespace skysweep::camera

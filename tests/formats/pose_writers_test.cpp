@@ -70,6 +70,29 @@ TEST_F(PoseWriters, colmap_points_read_back_the_same) {
   EXPECT_EQ(points[1].id, "2");
 }
 
+// images.txt and points3D.txt name each other, as in "Output Format" of COLMAP's documentation.
+TEST_F(PoseWriters, tracks_stand_at_images_and_at_points) {
+  const auto images = random_images();
+  write_colmap_text(
+      path("sparse"), images,
+      {{{1, 2, 3}, {}, {{0, {10.5, 20.25}}, {2, {30, 40}}}}, {{4, 5, 6}, {}, {{2, {7, 8}}}}, {{7, 8, 9}, {}}});
+  const auto lines = [&](const std::string& file) {
+    std::ifstream in(path("sparse/" + file));
+    std::vector<std::string> out;
+    for (std::string line; std::getline(in, line);)
+      if (line.empty() || line[0] != '#') out.push_back(line);
+    return out;
+  };
+  const auto at_images = lines("images.txt"), at_points = lines("points3D.txt");
+  EXPECT_EQ(at_images[1], "10.5 20.25 1");
+  EXPECT_EQ(at_images[3], "");
+  EXPECT_EQ(at_images[5], "30 40 1 7 8 2");
+  EXPECT_EQ(at_points[0], "1 1 2 3 0 0 0 0 1 0 3 0");
+  EXPECT_EQ(at_points[1], "2 4 5 6 0 0 0 0 3 1");
+  expect_same(read_poses(path("sparse")), images);
+  EXPECT_EQ(read_check_points(path("sparse"), {2, {}}).size(), 1u);
+}
+
 TEST_F(PoseWriters, difficult_names_survive) {
   std::vector<PosedImage> images(4, random_images()[0]);
   images[0].name = " space before.jpg";

@@ -66,5 +66,17 @@ TEST(Crs, vertical_reference_is_the_compound_part_or_said_to_be_unknown) {
   EXPECT_EQ(vertical_reference(local_metric_crs()), "unknown: as in the photographs' poses");
 }
 
+// Snyder, Map Projections, formula 8: on the central meridian of a UTM zone the easting is 500 km; the equator is
+// northing 0. A metre along the meridian at the equator is 1 / (0.9996 x 6335439) radians.
+TEST(Crs, places_on_earth_are_those_of_the_projection) {
+  const auto at = wgs84_positions(crs_from_user_input("EPSG:32632"), {{500000, 0}, {500000, 1000}});
+  ASSERT_TRUE(at);
+  EXPECT_NEAR((*at)[0].latitude_deg, 0, 1e-9);
+  EXPECT_NEAR((*at)[0].longitude_deg, 9, 1e-9);
+  EXPECT_NEAR((*at)[1].latitude_deg, 1000 / (0.9996 * 6335439.3) * 180 / 3.141592653589793, 1e-8);
+}
+
+TEST(Crs, a_local_frame_is_nowhere_on_earth) { EXPECT_FALSE(wgs84_positions(local_metric_crs(), {{1, 2}})); }
+
 }  // namespace
 }  // namespace skysweep::raster

@@ -292,12 +292,62 @@ TEST(Simulate, a_flight_below_the_roofs_and_an_unknown_crs_are_refused_before_an
   EXPECT_FALSE(fs::exists(folder));
 }
 
+TEST(Simulate, an_orbit_may_pass_below_a_roof_but_not_through_the_building) {
+  Scene scene = one_building();
+  scene.flight = {};
+  scene.flight.pattern = FlightPattern::orbit;
+  scene.flight.target = {10, 8, 0};
+  scene.flight.altitudes_m = {4};  // the roof is at 5.5
+  scene.flight.photographs = 4;
+  scene.flight.radius_m = 12;
+  SerialExecutor executor;
+  EXPECT_EQ(simulate(scene, fresh_folder("beside"), executor).photographs, 4);
+  scene.flight.radius_m = 2;  // east and west of the target that is inside
+  const fs::path folder = fresh_folder("through");
+  try {
+    simulate(scene, folder, executor);
+    ADD_FAILURE() << "flown through a building";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("below the surface at its place"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST(Simulate, what_it_will_hold_is_said_before_the_first_photograph) {
+  const auto said = [](const Scene& scene) {
+    std::vector<std::string> order;
+    std::uint64_t bytes = 0;
+    SimulationOptions options;
+    options.begin = [&](int photographs, std::uint64_t bytes_to_come) {
+      EXPECT_GT(photographs, 1);
+      bytes = bytes_to_come;
+      order.push_back("begin");
+    };
+    options.progress = [&](int, int) { order.push_back("progress"); };
+    SerialExecutor executor;
+    simulate(scene, fresh_folder("a"), executor, options);
+    EXPECT_EQ(order[0], "begin");
+    EXPECT_EQ(std::count(order.begin(), order.end(), "begin"), 1);
+    return bytes;
+  };
+  Scene scene = one_building();
+  const std::uint64_t plain = said(scene);
+  EXPECT_GE(plain, 200u * 150 * 2 * 3);
+  EXPECT_LE(plain, 100u << 20);
+  scene.truth.depth = true;
+  EXPECT_GE(said(scene), plain + 200 * 150 * 2 * 4);
+  scene.truth.depth = false;
+  scene.truth.cell_m = 0.02;
+  EXPECT_GE(said(scene), plain + 1000u * 800 * 8);
+}
+
 TEST(Simulate, progress_counts_photographs_and_the_truth) {
   std::vector<int> seen;
   int of = 0;
   SerialExecutor executor;
   const Simulation simulation =
-      simulate(one_building(), fresh_folder("a"), executor, {"skysweep", [&](int done, int total) {
+      simulate(one_building(), fresh_folder("a"), executor, {"skysweep", {}, [&](int done, int total) {
                                                                seen.push_back(done);
                                                                of = total;
                                                              }});

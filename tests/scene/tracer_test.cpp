@@ -2,6 +2,7 @@
 #include "scene/world/tracer.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <numbers>
@@ -89,6 +90,15 @@ TEST(Tracer, a_roof_is_exactly_at_its_height_and_walls_are_exactly_in_their_plan
     const double reach = side.x != 0 ? 8 : 5;
     EXPECT_NEAR(dot(Vec2d{hit.position.x, hit.position.y} - solids.boxes[0].center, outwards), reach, 1e-12);
   }
+}
+
+// Embree holds oneTBB to the number of threads that a device asks for, in the whole process.
+TEST(Tracer, leaves_all_threads_of_the_machine_to_others) {
+  const auto allowed = [] { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); };
+  const std::size_t before = allowed();
+  const Ground ground({}, 1);
+  const Tracer tracer(ground, {}, kExtent);
+  EXPECT_EQ(allowed(), before);
 }
 
 TEST(Tracer, beyond_the_ground_there_is_nothing) {

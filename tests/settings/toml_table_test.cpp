@@ -56,6 +56,18 @@ TEST(TomlTable, absent_keys_give_nothing) {
   EXPECT_TRUE(table.has("name"));
 }
 
+TEST(TomlTable, one_table_or_several_are_read_alike) {
+  const TomlTable one = TomlTable::parse("[flight]\na = 1\n", "f.toml");
+  const TomlTable two = TomlTable::parse("[[flight]]\na = 1\n[[flight]]\na = 2\n", "f.toml");
+  ASSERT_EQ(one.one_or_more_tables("flight").size(), 1u);
+  EXPECT_EQ(one.one_or_more_tables("flight")[0].number("a"), 1);
+  ASSERT_EQ(two.one_or_more_tables("flight").size(), 2u);
+  EXPECT_EQ(two.one_or_more_tables("flight")[1].number("a"), 2);
+  EXPECT_TRUE(one.one_or_more_tables("absent").empty());
+  const TomlTable wrong = TomlTable::parse("flight = 3\n", "f.toml");
+  EXPECT_NE(error_message([&] { wrong.one_or_more_tables("flight"); }).find("array of tables"), std::string::npos);
+}
+
 TEST(TomlTable, the_wrong_type_is_told_with_file_line_and_key) {
   const TomlTable table = scene();
   EXPECT_EQ(error_message([&] { table.number("name"); }), "scene.toml:1: name must be a number, but is a string");

@@ -3,6 +3,7 @@
 
 #include "app/commands/commands.h"
 #include "app/console.h"
+#include "app/option_values.h"
 #include "core/error.h"
 #include "pipeline/project.h"
 #include "pipeline/tbb_executor.h"
@@ -26,6 +27,10 @@ int simulate(const SimulateOptions& options) {
   bool begun = false;
   scene::SimulationOptions simulation;
   simulation.software = pipeline::software_name();
+  simulation.begin = [&](int photographs, std::uint64_t bytes_to_come) {
+    console.say(std::to_string(photographs) + " photographs to take; about " +
+                memory_text(resident_memory() + bytes_to_come) + " of memory");
+  };
   simulation.progress = [&](int, int total) {
     if (!begun) console.begin("photographs and truth", total);
     begun = true;

@@ -8,6 +8,7 @@
 #include "core/array2d.h"
 #include "core/color.h"
 #include "core/executor.h"
+#include "scene/render/photograph_effects.h"
 #include "scene/render/pixel_rays.h"
 #include "scene/world/world.h"
 
@@ -19,7 +20,15 @@ struct Exposure {
   std::uint64_t noise_seed = 0;
 };
 
+// `effects` are those that the scene names, or null.
 Array2d<Rgb8> take_photograph(const World& world, const camera::CameraModel& model, const PixelRays& rays,
-                              const camera::Pose& pose, const Exposure& exposure, Executor& executor);
+                              const camera::Pose& pose, const Exposure& exposure, Executor& executor,
+                              const PhotographEffects* effects = nullptr);
+
+// The same as linear light times exposure.gain, without noise_sigma, which is noise of grey levels. Black where the
+// lens model does not reach.
+Array2d<LinearRgb> take_linear_photograph(const World& world, const camera::CameraModel& model, const PixelRays& rays,
+                                          const camera::Pose& pose, const Exposure& exposure, Executor& executor,
+                                          const PhotographEffects* effects = nullptr);
 
 }  // namespace skysweep::scene

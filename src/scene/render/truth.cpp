@@ -6,13 +6,13 @@
 
 #include "scene/render/class_map.h"
 #include "scene/render/encoding.h"
+#include "scene/render/sightings.h"
 
 namespace skysweep::scene {
 namespace {
 
 constexpr int kSamplesPerSide = 4;
 static_assert(kSamplesPerSide * kSamplesPerSide <= Tracer::kBatch);
-constexpr double kLiftOff = 0.01;  // as far as sight rays start from their surface
 
 Ray straight_down(const World& world, Vec2d p) { return {{p.x, p.y, world.highest_m() + 1}, {0, 0, -1}}; }
 
@@ -33,27 +33,9 @@ Rgba8 color_of_cell(const World& world, Vec2d center, double cell_m) {
   return {to_byte(srgb_level(mean.r)), to_byte(srgb_level(mean.g)), to_byte(srgb_level(mean.b)), 255};
 }
 
-// Counts the cameras that show a surface point, have it in front of its surface, and see it past everything else.
 int count_views(const World& world, const SurfacePoint& point, const std::vector<camera::Camera>& cameras) {
-  Ray sight[Tracer::kBatch];
-  bool active[Tracer::kBatch], hidden[Tracer::kBatch];
-  int views = 0, count = 0;
-  const auto flush = [&] {
-    world.tracer().blocked(sight, active, count, false, hidden);
-    for (int i = 0; i < count; ++i) views += !hidden[i];
-    count = 0;
-  };
-  const Vec3d start = point.position + kLiftOff * point.normal;
-  for (const camera::Camera& camera : cameras) {
-    const Vec3d to_camera = camera.pose().center - start;
-    if (dot(to_camera, point.normal) <= 0) continue;
-    const std::optional<Vec2d> pixel = camera.project(point.position);
-    if (!pixel || !camera.shows(*pixel)) continue;
-    sight[count] = {start, to_camera};
-    active[count] = true;
-    if (++count == Tracer::kBatch) flush();
-  }
-  flush();
+  int views = 0;
+  for_each_sighting(world, point, cameras, [&](std::size_t, Vec2d) { ++views; });
   return views;
 }
 

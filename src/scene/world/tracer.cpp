@@ -110,10 +110,32 @@ double to_plane(const Ray& ray, Vec3d normal, Vec3d point) {
   return dot(normal, point - ray.origin) / dot(normal, ray.direction);
 }
 
+// All 16 lanes are set, so that a packet may be copied.
+void prepare(const Ray* rays, int count, RTCRayHit16& packet, int* valid) {
+  for (int i = 0; i < Tracer::kBatch; ++i) {
+    const Ray& ray = rays[i < count ? i : 0];
+    valid[i] = i < count ? -1 : 0;
+    packet.ray.org_x[i] = static_cast<float>(ray.origin.x);
+    packet.ray.org_y[i] = static_cast<float>(ray.origin.y);
+    packet.ray.org_z[i] = static_cast<float>(ray.origin.z);
+    packet.ray.dir_x[i] = static_cast<float>(ray.direction.x);
+    packet.ray.dir_y[i] = static_cast<float>(ray.direction.y);
+    packet.ray.dir_z[i] = static_cast<float>(ray.direction.z);
+    packet.ray.tnear[i] = 0;
+    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    packet.ray.time[i] = 0;
+    packet.ray.mask[i] = ~0u;
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
 }  // namespace
 
 struct Tracer::Embree {
   RTCDevice device = nullptr;
+  RTCDevice unlimited = nullptr;  // see allow_all_threads
   RTCScene scene = nullptr;
   std::array<RTCScene, kTreePrototypes> prototypes{};
   // With instances: incoherent. Embree 3.13.5's other traversal never returns from some packets of shadow rays there.
@@ -123,7 +145,12 @@ struct Tracer::Embree {
     for (RTCScene prototype : prototypes)
       if (prototype) rtcReleaseScene(prototype);
     rtcReleaseDevice(device);
+    if (unlimited) rtcReleaseDevice(unlimited);
   }
+
+  // As long as a device lives that was made with "threads=1", Embree holds all of oneTBB in this process to one thread,
+  // ours included. The largest wish of all devices counts: one that wishes for all threads ends the limit.
+  void allow_all_threads() { unlimited = rtcNewDevice("set_affinity=0"); }
 };
 
 Tracer::Tracer(const Ground& ground, const Solids& solids, const Box2d& extent)
@@ -143,6 +170,7 @@ Tracer::Tracer(const Ground& ground, const Solids& solids, const Box2d& extent)
   rtcCommitScene(embree_->scene);
   if (const RTCError error = rtcGetDeviceError(embree_->device); error != RTC_ERROR_NONE)
     throw failure("Embree cannot build the scene (its error " + std::to_string(error) + ")");
+  embree_->allow_all_threads();
 }
 
 Tracer::~Tracer() = default;
@@ -197,24 +225,9 @@ void Tracer::hit_leaf(const Ray& ray, SurfacePoint& hit) const {
 
 void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
   SKY_CHECK_LE(count, kBatch);
-  alignas(64) int valid[kBatch] = {};
+  alignas(64) int valid[kBatch];
   RTCRayHit16 packet;
-  for (int i = 0; i < count; ++i) {
-    valid[i] = -1;
-    packet.ray.org_x[i] = static_cast<float>(rays[i].origin.x);
-    packet.ray.org_y[i] = static_cast<float>(rays[i].origin.y);
-    packet.ray.org_z[i] = static_cast<float>(rays[i].origin.z);
-    packet.ray.dir_x[i] = static_cast<float>(rays[i].direction.x);
-    packet.ray.dir_y[i] = static_cast<float>(rays[i].direction.y);
-    packet.ray.dir_z[i] = static_cast<float>(rays[i].direction.z);
-    packet.ray.tnear[i] = 0;
-    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    packet.ray.time[i] = 0;
-    packet.ray.mask[i] = ~0u;
-    packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
+  prepare(rays, count, packet, valid);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = embree_->traversal;
@@ -319,6 +332,30 @@ void Tracer::blocked(const Ray* rays, const bool* active, int count, bool endles
   std::optional<GroundTracer::Hit> ground[kBatch];
   ground_tracer_->first_hits(rays, open, count, endless ? std::numeric_limits<double>::infinity() : 1.0, ground);
   for (int i = 0; i < count; ++i) out[i] = out[i] || (open[i] && ground[i]);
+}
+
+std::function<int()> Tracer::embree_alone(const std::vector<Ray>& rays) const {
+  struct Packet {
+    RTCRayHit16 rays;
+    alignas(64) int valid[kBatch];
+  };
+  std::vector<Packet> packets((rays.size() + kBatch - 1) / kBatch);
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const int count = static_cast<int>(std::min<std::size_t>(kBatch, rays.size() - i * kBatch));
+    prepare(rays.data() + i * kBatch, count, packets[i].rays, packets[i].valid);
+  }
+  return [packets, scene = embree_->scene] {
+    int hits = 0;
+    for (const Packet& packet : packets) {
+      RTCRayHit16 traced = packet.rays;
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+      rtcIntersect16(packet.valid, scene, &context, &traced);
+      for (int i = 0; i < kBatch; ++i) hits += packet.valid[i] && traced.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    }
+    return hits;
+  };
 }
 
 }  // namespace skysweep::scene

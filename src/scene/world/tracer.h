@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -45,6 +46,10 @@ class Tracer {
   // Whether something lies on the way from origin to origin + direction x (1, or infinity if `endless`); rays with
   // active[i] false are passed over. count <= kBatch.
   void blocked(const Ray* rays, const bool* active, int count, bool endless, bool* out) const;
+
+  // For measuring: traces the rays with Embree alone each time it is called, without working out where they hit, and
+  // gives back how many hit something. The packets are prepared now. The tracer must outlive it.
+  std::function<int()> embree_alone(const std::vector<Ray>& rays) const;
 
  private:
   struct Embree;

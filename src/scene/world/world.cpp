@@ -42,32 +42,40 @@ World::World(const Scene& scene, const Box2d& visible)
       solids_(build_solids(scene, ground_, streets_, with_surroundings(scene, visible))),
       tracer_(ground_, solids_, with_surroundings(scene, visible)),
       materials_(scene, ground_, streets_, solids_),
-      towards_sun_(direction_to_sun(scene.light)),
+      moment_{direction_to_sun(scene.light), kSun, kSky, nullptr, nullptr},
       shadows_(scene.light.shadows),
       lowest_m_(ground_.heights(with_surroundings(scene, visible)).lowest),
       highest_m_(ground_.heights(with_surroundings(scene, visible)).highest) {
   highest_m_ = std::max(highest_m_, solids_.highest_m());
 }
 
-void World::look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const {
+void World::look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light, const Moment& moment) const {
   tracer_.first_hits(rays, count, hits);
+  LinearRgb passing_own[Tracer::kBatch];
+  bool passing[Tracer::kBatch] = {};
+  if (moment.traffic) moment.traffic->first_hits(rays, count, hits, passing_own, passing);
+  const Vec3d towards_sun = moment.towards_sun;
   Ray to_sun[Tracer::kBatch];
   bool faces_sun[Tracer::kBatch], in_shadow[Tracer::kBatch] = {};
   for (int i = 0; i < count; ++i) {
-    faces_sun[i] = hits[i].face != Face::none && dot(hits[i].normal, towards_sun_) > 0;
-    to_sun[i] = {hits[i].position + kLiftOff * hits[i].normal, towards_sun_};
+    faces_sun[i] = hits[i].face != Face::none && dot(hits[i].normal, towards_sun) > 0;
+    to_sun[i] = {hits[i].position + kLiftOff * hits[i].normal, towards_sun};
   }
   if (shadows_) tracer_.blocked(to_sun, faces_sun, count, true, in_shadow);
+  if (shadows_ && moment.traffic) moment.traffic->blocked(to_sun, faces_sun, count, in_shadow);
+  float sun[Tracer::kBatch];
+  for (int i = 0; i < count; ++i)
+    sun[i] = static_cast<float>(
+        faces_sun[i] && !in_shadow[i] ? dot(hits[i].normal, towards_sun) / std::max(0.2, towards_sun.z) : 0.0);
+  if (moment.clouds) moment.clouds->dim(hits, count, towards_sun, sun);
   for (int i = 0; i < count; ++i) {
     if (hits[i].face == Face::none) {
       light[i] = kHaze;
       continue;
     }
-    const double sun =
-        faces_sun[i] && !in_shadow[i] ? dot(hits[i].normal, towards_sun_) / std::max(0.2, towards_sun_.z) : 0.0;
     const double sky = 0.5 + 0.5 * hits[i].normal.z;
-    const LinearRgb received = static_cast<float>(sun) * kSun + static_cast<float>(sky) * kSky;
-    const LinearRgb own = materials_.reflectance(hits[i]);
+    const LinearRgb received = sun[i] * moment.sun + static_cast<float>(sky) * moment.sky;
+    const LinearRgb own = passing[i] ? passing_own[i] : materials_.reflectance(hits[i]);
     light[i] = {own.r * received.r, own.g * received.g, own.b * received.b};
   }
 }

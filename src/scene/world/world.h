@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "scene/world/ground.h"
 #include "scene/world/materials.h"
+#include "scene/world/moment.h"
 #include "scene/world/solids.h"
 #include "scene/world/surface_class.h"
 #include "scene/world/town.h"
@@ -16,7 +17,7 @@
 
 namespace skysweep::scene {
 
-// Immutable: safe to share between threads.
+// Immutable but for set_moment: safe to share between threads.
 class World {
  public:
   // Everything that can be seen on `visible`, a box on the ground.
@@ -36,7 +37,14 @@ class World {
 
   // Light that comes back along each of `count` <= Tracer::kBatch rays (1: white, lit like level ground in the sun),
   // and what they hit first.
-  void look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const;
+  void look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light) const {
+    look(rays, count, hits, light, moment_);
+  }
+  // The same at another moment.
+  void look(const Ray* rays, int count, SurfacePoint* hits, LinearRgb* light, const Moment& moment) const;
+
+  const Moment& moment() const { return moment_; }
+  void set_moment(const Moment& moment) { moment_ = moment; }  // before the world is shared
 
  private:
   Ground ground_;
@@ -44,7 +52,7 @@ class World {
   Solids solids_;
   Tracer tracer_;
   Materials materials_;
-  Vec3d towards_sun_;
+  Moment moment_;
   bool shadows_;
   double lowest_m_, highest_m_;
 };
