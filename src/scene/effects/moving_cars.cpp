@@ -18,6 +18,7 @@ constexpr std::uint64_t kTrafficStream = 0xeffca5;
 constexpr double kCell_m = 8;     // of the grid in which cars are looked up
 constexpr double kSpace_m = 7;    // the least a car takes of its lane
 constexpr double kAround_m = 30;  // cars this far outside a photograph throw shadows into it
+constexpr double kPassable_m = 10;  // width of a street with parked cars on both sides and room between them
 constexpr std::array<LinearRgb, 5> kPaints = {{{0.62f, 0.62f, 0.60f},
                                                {0.03f, 0.03f, 0.035f},
                                                {0.32f, 0.33f, 0.35f},
@@ -157,6 +158,10 @@ MovingCarsEffect::MovingCarsEffect(const MovingCars& settings, const Scene& scen
       seed_(static_cast<std::uint32_t>(mix64(mix64(scene.seed) ^ kTrafficStream))) {
   if (!scene.town)
     throw usage_error(settings.named_at + " needs streets to drive on: add the table [town], or leave the table out");
+  if (scene.town->cars_per_100m > 0 && scene.town->street_m < kPassable_m)
+    throw usage_error(settings.named_at +
+                      " needs streets wide enough to pass parked cars: set town.street_m to 10 or more, or "
+                      "town.cars_per_100m to 0");
   streets_.emplace(*scene.town, 0.5 * scene.area_m);
 }
 

@@ -42,7 +42,7 @@ class Traffic final : public PassingSolids {
 
 class MovingCarsEffect final : public LightEffect {
  public:
-  // Throws Error(usage) if the scene has no town.
+  // Throws Error(usage) if the scene has no town, or streets too narrow to pass parked cars.
   MovingCarsEffect(const MovingCars& settings, const Scene& scene, const std::vector<Shot>& shots);
   void change(const Shot& shot, const World& world, Moment& moment) const override;
 
