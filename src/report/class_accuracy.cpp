@@ -11,7 +11,12 @@ namespace skysweep::report {
 namespace {
 
 bool names_building(const std::string& name) {
-  for (const char* word : {"roof", "Roof", "facade", "Facade", "fa\xc3\xa7" "ade", "Fa\xc3\xa7" "ade", "building", "Building"})
+  for (const char* word : {"roof", "Roof", "facade", "Facade",
+                           "fa\xc3\xa7"
+                           "ade",
+                           "Fa\xc3\xa7"
+                           "ade",
+                           "building", "Building"})
     if (name.find(word) != std::string::npos) return true;
   return false;
 }

@@ -106,7 +106,8 @@ Array2d<Rgb8> difference_map(const HeightDifferences& cells, const DifferenceMap
   Array2d<Rgb8> image(std::max(width, kLegendWidth), height + kLegendHeight, kWhite);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const Patch patch = patch_at(cells, x / scale.zoom * scale.thinning, y / scale.zoom * scale.thinning, scale.thinning);
+      const Patch patch =
+          patch_at(cells, x / scale.zoom * scale.thinning, y / scale.zoom * scale.thinning, scale.thinning);
       if (patch.truth_count == 0)
         image(x, y) = kNoTruth;
       else if (2 * patch.dz_count < patch.truth_count || patch.dz_count == 0)

@@ -31,9 +31,9 @@ ErrorDistribution error_distribution(std::span<const float> dz, std::int64_t ref
     const auto within = std::upper_bound(absolute.begin(), absolute.end(), error_m,
                                          [](double limit, float value) { return limit < value; }) -
                         absolute.begin();
-    out.cumulative.push_back(
-        {error_m, reference_count > 0 ? static_cast<double>(within) / static_cast<double>(reference_count)
-                                      : std::numeric_limits<double>::quiet_NaN()});
+    out.cumulative.push_back({error_m, reference_count > 0
+                                           ? static_cast<double>(within) / static_cast<double>(reference_count)
+                                           : std::numeric_limits<double>::quiet_NaN()});
   }
   return out;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that was found out about a surface (and its orthophoto), as one value: printed, written as JSON or shown as
-// a page by the functions below and by report/html_report.h.
+// Everything that was found out about a surface (and its orthophoto), as one value: printed, written as JSON or shown
+// as a page by the functions below and by report/html_report.h.
 #pragma once
 
 #include <optional>

@@ -14,12 +14,9 @@ void put_length(Json& out, const std::string& key, double metres, double gsd_m) 
 }
 
 Json score_json(const EdgeScore& score) {
-  return {{"true_count", score.true_count},
-          {"true_found", score.true_found},
-          {"measured_count", score.measured_count},
-          {"measured_right", score.measured_right},
-          {"precision", number(score.precision())},
-          {"recall", number(score.recall())},
+  return {{"true_count", score.true_count},         {"true_found", score.true_found},
+          {"measured_count", score.measured_count}, {"measured_right", score.measured_right},
+          {"precision", number(score.precision())}, {"recall", number(score.recall())},
           {"f_score", number(score.f_score())}};
 }
 

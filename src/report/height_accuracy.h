@@ -48,12 +48,12 @@ struct AccuracyOptions {
   double gsd_m = 0;  // > 0: ground sampling distance of the photographs (not the side of an output cell)
 };
 
-// Figures of the dz of all measured heights (none of them NaN; single precision is plenty for differences and halves the
-// memory). `reference_count` counts the holes, too.
+// Figures of the dz of all measured heights (none of them NaN; single precision is plenty for differences and halves
+// the memory). `reference_count` counts the holes, too.
 HeightErrors height_errors(std::vector<float> dz, std::int64_t reference_count, double gsd_m);
 
-// The surface at every cell that has a true height. `mask` (may be null) is of the cells' size; a cell is inside where it
-// is above 0. Throws Error(usage) if the GSD is not positive.
+// The surface at every cell that has a true height. `mask` (may be null) is of the cells' size; a cell is inside where
+// it is above 0. Throws Error(usage) if the GSD is not positive.
 HeightAccuracy accuracy_of(const HeightDifferences& cells, const Array2d<std::uint8_t>* mask,
                            const AccuracyOptions& options);
 
@@ -64,7 +64,8 @@ HeightAccuracy accuracy_of(const HeightDifferences& cells, const Array2d<std::ui
 HeightAccuracy compare_surfaces(const raster::Raster<float>& dsm, const raster::Raster<float>& truth,
                                 const raster::Raster<std::uint8_t>* mask, const AccuracyOptions& options);
 
-// Measured minus true height, the surface interpolated bilinearly, at points given in its CRS; NaN outside and in holes.
+// Measured minus true height, the surface interpolated bilinearly, at points given in its CRS; NaN outside and in
+// holes.
 std::vector<float> point_differences(const raster::Raster<float>& dsm, const std::vector<Vec3d>& points);
 
 // Figures of these: NaN counts as a hole.

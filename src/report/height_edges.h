@@ -31,13 +31,13 @@ std::vector<HeightEdge> height_edges(const Array2d<float>& heights, double step_
 
 // How many edges of one surface have a counterpart in the other within a tolerance.
 struct EdgeScore {
-  std::int64_t true_count = 0;       // true edges
-  std::int64_t true_found = 0;       // of these: with a measured edge near by
-  std::int64_t measured_count = 0;   // measured edges
-  std::int64_t measured_right = 0;   // of these: with a true edge near by
-  double precision() const;          // measured_right / measured_count; NaN without measured edges
-  double recall() const;             // true_found / true_count; NaN without true edges
-  double f_score() const;            // harmonic mean; 0 if one of the two kinds is missing, NaN if both are
+  std::int64_t true_count = 0;      // true edges
+  std::int64_t true_found = 0;      // of these: with a measured edge near by
+  std::int64_t measured_count = 0;  // measured edges
+  std::int64_t measured_right = 0;  // of these: with a true edge near by
+  double precision() const;         // measured_right / measured_count; NaN without measured edges
+  double recall() const;            // true_found / true_count; NaN without true edges
+  double f_score() const;           // harmonic mean; 0 if one of the two kinds is missing, NaN if both are
 };
 using EdgeScores = std::array<EdgeScore, kEdgeTolerancesGsd.size()>;
 

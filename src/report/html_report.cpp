@@ -109,7 +109,8 @@ std::string edges(const Evaluation& e) {
   }
   return table({"edges", "precision", "recall", "F", "measured", "true"}, scores,
                format("Sides of cells with a height difference of more than %g m", e.edge_step_m)) +
-         table({"steps", "straight", "found", "median, m", "median, GSD", "mean, GSD", "|.| median, GSD", "5 to 95 %, GSD"},
+         table({"steps", "straight", "found", "median, m", "median, GSD", "mean, GSD", "|.| median, GSD",
+                "5 to 95 %, GSD"},
                steps, "Displacement of straight steps along their normal; positive = the object has grown");
 }
 
@@ -188,7 +189,9 @@ std::string picture(const Array2d<Rgb8>& map) {
 
 std::string to_html(const Evaluation& e, const HtmlReport& page) {
   const double gsd_m = e.heights.gsd_m;
-  std::string out = "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>";
+  std::string out =
+      "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta "
+      "charset=\"utf-8\"/>\n<title>";
   out += escaped(page.title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + escaped(page.title) +
          "</h1>\n" + inputs(page, gsd_m);
   out += section("Heights", heights(e.heights) + "<div class=\"charts\">\n" + to_svg(histogram_chart(e.distribution)) +

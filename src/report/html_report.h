@@ -16,7 +16,7 @@ namespace skysweep::report {
 struct HtmlReport {
   std::string title;
   std::vector<std::pair<std::string, std::string>> inputs;  // what was compared: name and value, e.g. "surface", a path
-  Array2d<Rgb8> difference_map;                              // may be empty
+  Array2d<Rgb8> difference_map;                             // may be empty
 };
 
 std::string to_html(const Evaluation& evaluation, const HtmlReport& page);

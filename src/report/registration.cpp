@@ -103,8 +103,7 @@ class BlockMatcher {
   std::vector<float> true_window_, ortho_window_;  // kept, so that they are not allocated for every shift
 };
 
-void compare_colors(const Array2d<Rgba8>& ortho, const Array2d<Rgba8>& truth, CellOffset offset,
-                    Registration& out) {
+void compare_colors(const Array2d<Rgba8>& ortho, const Array2d<Rgba8>& truth, CellOffset offset, Registration& out) {
   std::vector<float> differences;
   double sum = 0;
   for (int row = 0; row < truth.height(); ++row)

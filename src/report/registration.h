@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well an orthophoto lies on a true one: shifts of small blocks found by normalised cross-correlation over the cells
-// that have colours in both, and the
-// difference in colour where nothing is shifted.
+// How well an orthophoto lies on a true one: shifts of small blocks found by normalised cross-correlation over the
+// cells that have colours in both, and the difference in colour where nothing is shifted.
 #pragma once
 
 #include <cstdint>

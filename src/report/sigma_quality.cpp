@@ -53,8 +53,8 @@ std::vector<SigmaThreshold> thresholds(const std::vector<Sample>& samples, std::
     outliers += samples[i].error_m > outlier_m;
     if (i + 1 < samples.size() && samples[i + 1].sigma_m == samples[i].sigma_m) continue;
     const auto kept = static_cast<double>(i + 1);
-    out.push_back({samples[i].sigma_m, kept / static_cast<double>(reference_count),
-                   static_cast<double>(outliers) / kept});
+    out.push_back(
+        {samples[i].sigma_m, kept / static_cast<double>(reference_count), static_cast<double>(outliers) / kept});
   }
   return out;
 }

@@ -14,12 +14,12 @@
 namespace skysweep::report {
 namespace {
 
-constexpr double kReach = 6;           // of the profile to both sides, in cells or GSD, whichever is larger
-constexpr double kSpacingCells = 0.25; // of the samples along the profile
-constexpr int kStripCells = 2;         // the profile is a strip this wide to both sides
-constexpr int kNormalCells = 3;        // radius of the disc that tells the direction of the normal
-constexpr double kStraight = 0.9;      // least moment of that disc, of the moment of a straight edge
-constexpr double kTrueLevel = 0.9;     // least mean of the higher end of a clean true profile (lower end: the rest to 1)
+constexpr double kReach = 6;            // of the profile to both sides, in cells or GSD, whichever is larger
+constexpr double kSpacingCells = 0.25;  // of the samples along the profile
+constexpr int kStripCells = 2;          // the profile is a strip this wide to both sides
+constexpr int kNormalCells = 3;         // radius of the disc that tells the direction of the normal
+constexpr double kStraight = 0.9;       // least moment of that disc, of the moment of a straight edge
+constexpr double kTrueLevel = 0.9;  // least mean of the higher end of a clean true profile (lower end: the rest to 1)
 constexpr double kMeasuredLevel = 0.75;
 
 // Bilinear height between cell centres; positions in cells from the centre of the north-west cell. NaN beside holes.
@@ -60,8 +60,8 @@ std::optional<Vec2d> normal_of(const Array2d<float>& truth, const HeightEdge& ed
 
 // Heights in a strip across a step, from the higher side to the lower one.
 struct Profile {
-  double high = 0, low = 0;       // heights of the outer halves
-  std::vector<double> high_share; // mean over the strip, of how far the height lies from low (0) to high (1)
+  double high = 0, low = 0;        // heights of the outer halves
+  std::vector<double> high_share;  // mean over the strip, of how far the height lies from low (0) to high (1)
 };
 
 class ProfileReader {
@@ -101,7 +101,8 @@ class ProfileReader {
     return high >= level && low <= 1 - level;
   }
 
-  // Where the step stands from the middle of the profile, in cells: the length on which the ground is high (trapezoids).
+  // Where the step stands from the middle of the profile, in cells: the length on which the ground is high
+  // (trapezoids).
   double position(const Profile& profile) const {
     const auto& share = profile.high_share;
     const double sum = std::accumulate(share.begin(), share.end(), 0.0) - 0.5 * (share.front() + share.back());

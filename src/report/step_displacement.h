@@ -20,8 +20,8 @@ struct StepDisplacement {
   double p5_m = 0, p95_m = 0;  // quantiles
 };
 
-// Looks at every true height edge (report/height_edges.h) of more than `step_m`, or at those with one of their two cells
-// in `region` (may be null; of the cells' size).
+// Looks at every true height edge (report/height_edges.h) of more than `step_m`, or at those with one of their two
+// cells in `region` (may be null; of the cells' size).
 StepDisplacement step_displacement(const HeightDifferences& cells, double step_m, double gsd_m,
                                    const Array2d<std::uint8_t>* region);
 

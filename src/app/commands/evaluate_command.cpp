@@ -36,9 +36,8 @@ int evaluate(const EvaluateOptions& options) {
   std::fputs(report::to_text(comparison.evaluation).c_str(), stdout);
   if (options.json) raster::write_bytes_atomically(*options.json, report::to_json(comparison.evaluation));
   if (options.difference)
-    raster::write_bytes_atomically(
-        *options.difference,
-        raster::png_bytes(report::difference_map(*comparison.cells, {options.difference_limit_m()})));
+    raster::write_bytes_atomically(*options.difference, raster::png_bytes(report::difference_map(
+                                                            *comparison.cells, {options.difference_limit_m()})));
   if (options.html) write_page(options, comparison);
   return 0;
 }

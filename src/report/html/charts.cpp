@@ -22,7 +22,8 @@ Chart histogram_chart(const ErrorDistribution& distribution) {
   for (const std::int64_t count : distribution.counts) total += static_cast<double>(count);
   const double limit = distribution.limit_m;
   const auto share = [&](std::int64_t count) { return total > 0 ? static_cast<double>(count) / total : 0; };
-  Chart chart{"Errors dz = measured - true", {"dz, metres", -limit, limit}, {"share of heights", 0, 0, false, true}, {}, {}};
+  Chart chart{
+      "Errors dz = measured - true", {"dz, metres", -limit, limit}, {"share of heights", 0, 0, false, true}, {}, {}};
   const double width = 2 * limit / ErrorDistribution::kBins;
   for (std::size_t i = 0; i < distribution.counts.size(); ++i) {
     const double from = -limit + static_cast<double>(i) * width;

@@ -142,7 +142,8 @@ std::string escaped(const std::string& text) {
 
 std::string to_svg(const Chart& chart) {
   const Plot plot(chart);
-  std::string out = format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" role=\"img\">\n", kWidth, kHeight);
+  std::string out =
+      format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" role=\"img\">\n", kWidth, kHeight);
   out += "<title>" + escaped(chart.title) + "</title>\n";
   out += text_at(kLeft, 20, "class=\"title\"", chart.title);
   out += axes(chart, plot) + bars(chart, plot) + lines(chart, plot) + legend(chart);

@@ -46,8 +46,7 @@ void compare_edges(const EvaluateOptions& options, const report::HeightDifferenc
   out.edges = report::edge_accuracy(cells, out.edge_step_m, options.gsd, nullptr);
   if (!classes) return;
   constexpr double kMarginGsd = 10;  // around the buildings: a wall that stands too far out is still theirs
-  const Array2d<std::uint8_t> region =
-      report::building_region(*classes, kMarginGsd * options.gsd, cells.grid.cell_m);
+  const Array2d<std::uint8_t> region = report::building_region(*classes, kMarginGsd * options.gsd, cells.grid.cell_m);
   if (!region.empty()) out.building_edges = report::edge_accuracy(cells, out.edge_step_m, options.gsd, &region);
 }
 
@@ -62,13 +61,12 @@ Comparison compare_with_surface(const EvaluateOptions& options) {
 
   e.heights = report::accuracy_of(cells, mask ? &*mask : nullptr, {options.gsd});
   const std::int64_t reference_count = e.heights.overall.reference_count;
-  e.distribution = report::error_distribution(cells.dz, reference_count, options.gsd,
-                                              options.difference_limit_m());
+  e.distribution = report::error_distribution(cells.dz, reference_count, options.gsd, options.difference_limit_m());
   compare_edges(options, cells, classes, e);
   if (classes) e.classes = report::accuracy_by_class(cells, *classes, options.gsd);
   if (options.sigma) {
-    const Array2d<float> sigma = report::sampled_on_grid(read_sigma(options, dsm), cells.grid, cells.truth.width(),
-                                                         cells.truth.height());
+    const Array2d<float> sigma =
+        report::sampled_on_grid(read_sigma(options, dsm), cells.grid, cells.truth.width(), cells.truth.height());
     e.sigma = report::sigma_quality(cells.dz, sigma, reference_count, options.outlier_m());
     if (classes) e.sigma->classes = report::coverage_by_class(cells.dz, sigma, *classes);
   }

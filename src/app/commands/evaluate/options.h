@@ -10,7 +10,7 @@ namespace skysweep::app {
 struct EvaluateOptions {
   std::string dsm;
   std::optional<std::string> truth, points, mask, classes, sigma, ortho, truth_ortho, origin;  // inputs
-  std::optional<std::string> json, difference, html;                                          // outputs
+  std::optional<std::string> json, difference, html;                                           // outputs
   std::optional<int> min_track;
   std::optional<double> max_error, edge_step, outlier_gsd, difference_limit;
   double gsd = 0;
