@@ -55,14 +55,14 @@ void fill(Array2d<Rgb8>& image, int x, int y, int width, int height, Rgb8 color)
 
 std::string metres(double value) {
   char buffer[32];
-  std::snprintf(buffer, sizeof buffer, value == 0 ? "0" : "%+.3g", value);
+  std::snprintf(buffer, sizeof buffer, value == 0 ? "0" : "%+.4g", value);
   return buffer;
 }
 
 constexpr int kLegendWidth = 460, kLegendHeight = 92;
 
 void draw_legend(Array2d<Rgb8>& image, int top, double limit_m) {
-  constexpr int kLeft = 24, kBarWidth = 400, kBarHeight = 16;
+  constexpr int kLeft = 40, kBarWidth = 380, kBarHeight = 16;
   const auto write = [&](int x, int y, const std::string& text) {
     raster::draw_text(image, x, y, text, kTextPx, kInk);
   };

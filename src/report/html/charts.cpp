@@ -44,7 +44,7 @@ Chart cumulative_chart(const ErrorDistribution& distribution, double gsd_m) {
   Line line{"", kBlue, {}};
   for (const ErrorDistribution::Share& share : distribution.cumulative)
     line.points.push_back({share.error_m / gsd_m, share.of_all});
-  return {"Share of all heights with at most this error (holes count as misses)",
+  return {"Share of all heights with at most this error (holes are misses)",
           {"|dz|, GSD", 0.1, 100, true},
           {"share of all", 0, 1, false, true},
           {},
@@ -75,7 +75,7 @@ Chart contamination_chart(const SigmaQuality& sigma, double gsd_m) {
     curve.points.push_back({threshold.completeness, threshold.contamination});
     high = std::max(high, 1.1 * threshold.contamination);
   }
-  Chart chart{format("Outliers (off by more than %g GSD) among what a limit on sigma keeps", sigma.outlier_m / gsd_m),
+  Chart chart{format("Outliers (beyond %g GSD) among what a limit on sigma keeps", sigma.outlier_m / gsd_m),
               {"completeness", 0, 1, false, true},
               {"outliers among the kept", 0, std::min(1.0, high), false, true},
               {},

@@ -50,7 +50,9 @@ std::vector<double> ticks(const Axis& axis) {
 }
 
 std::string tick_text(const Axis& axis, double value) {
-  return axis.percent ? format("%g %%", std::round(value * 1e6) / 1e4) : format("%g", std::round(value * 1e9) / 1e9);
+  // Plus 0 turns the negative zero that rounding may leave into a plain one.
+  return axis.percent ? format("%g %%", std::round(value * 1e6) / 1e4 + 0.0)
+                      : format("%g", std::round(value * 1e9) / 1e9 + 0.0);
 }
 
 std::string text_at(double x, double y, const std::string& attributes, const std::string& text) {
