@@ -26,9 +26,10 @@ struct EdgeAccuracy {
 struct Evaluation {
   HeightAccuracy heights;
   ErrorDistribution distribution;
-  double edge_step_m = 0;                      // height difference from which two neighbours have an edge between them
+  double edge_step_m = 0;                      // height of a step that makes an edge
   std::optional<EdgeAccuracy> edges;           // against a true surface
-  std::optional<EdgeAccuracy> building_edges;  // and a map of classes with buildings
+  std::optional<EdgeAccuracy> building_edges;  // and a map of classes with buildings: theirs
+  std::optional<EdgeScores> other_edges;       // and those elsewhere: trees, noise
   std::vector<ClassErrors> classes;            // empty without a map of classes
   std::optional<SigmaQuality> sigma;
   std::optional<Registration> registration;

@@ -13,17 +13,28 @@ void put_length(Json& out, const std::string& key, double metres, double gsd_m) 
   out[key + "_gsd"] = number(metres / gsd_m);
 }
 
-Json score_json(const EdgeScore& score) {
-  return {{"true_count", score.true_count},         {"true_found", score.true_found},
-          {"measured_count", score.measured_count}, {"measured_right", score.measured_right},
-          {"precision", number(score.precision())}, {"recall", number(score.recall())},
-          {"f_score", number(score.f_score())}};
+Json score_json(const EdgeScore& score, double gsd_m) {
+  Json out;
+  put_length(out, "tolerance", score.tolerance_m, gsd_m);
+  out.update({{"true_count", score.true_count},
+              {"true_found", score.true_found},
+              {"measured_count", score.measured_count},
+              {"measured_right", score.measured_right},
+              {"precision", number(score.precision())},
+              {"recall", number(score.recall())},
+              {"f_score", number(score.f_score())}});
+  return out;
+}
+
+Json scores_json(const EdgeScores& scores, double gsd_m) {
+  Json out = Json::array();
+  for (const EdgeScore& score : scores) out.push_back(score_json(score, gsd_m));
+  return out;
 }
 
 Json edges_json(const EdgeAccuracy& edges, double gsd_m) {
   Json out;
-  for (std::size_t i = 0; i < edges.scores.size(); ++i)
-    out[format("within_%g_gsd", kEdgeTolerancesGsd[i])] = score_json(edges.scores[i]);
+  out["scores"] = scores_json(edges.scores, gsd_m);
   const StepDisplacement& steps = edges.steps;
   Json& displacement = out["step_displacement"];
   displacement["steps"] = steps.steps;
@@ -111,6 +122,7 @@ std::string to_json(const Evaluation& e) {
   if (e.edges) {
     out["edges"] = {{"step_m", e.edge_step_m}, {"all", edges_json(*e.edges, gsd_m)}};
     if (e.building_edges) out["edges"]["buildings"] = edges_json(*e.building_edges, gsd_m);
+    if (e.other_edges) out["edges"]["elsewhere"]["scores"] = scores_json(*e.other_edges, gsd_m);
   }
   for (const ClassErrors& c : e.classes) {
     Json entry{{"code", c.code}, {"name", c.name}};

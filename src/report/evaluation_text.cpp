@@ -8,14 +8,18 @@
 namespace skysweep::report {
 namespace {
 
-std::string edges_text(const EdgeAccuracy& edges, double gsd_m) {
+std::string scores_text(const EdgeScores& scores) {
   std::string out;
-  for (std::size_t i = 0; i < edges.scores.size(); ++i) {
-    const EdgeScore& score = edges.scores[i];
-    out += format("  within %g GSD   precision %s, recall %s, F %s\n", kEdgeTolerancesGsd[i],
+  for (const EdgeScore& score : scores)
+    out += format("  within %.3g m   precision %s, recall %s, F %s (%lld measured, %lld true)\n", score.tolerance_m,
                   percent(score.precision()).c_str(), percent(score.recall()).c_str(),
-                  number_text(score.f_score(), "%.3f").c_str());
-  }
+                  number_text(score.f_score(), "%.3f").c_str(), static_cast<long long>(score.measured_count),
+                  static_cast<long long>(score.true_count));
+  return out;
+}
+
+std::string edges_text(const EdgeAccuracy& edges, double gsd_m) {
+  std::string out = scores_text(edges.scores);
   const StepDisplacement& steps = edges.steps;
   out += format("  steps          %lld of %lld straight ones found", static_cast<long long>(steps.found),
                 static_cast<long long>(steps.steps));
@@ -75,6 +79,7 @@ std::string to_text(const Evaluation& e) {
   std::string out = to_text(e.heights);
   if (e.edges) out += format("Edges of more than %g m\n", e.edge_step_m) + edges_text(*e.edges, gsd_m);
   if (e.building_edges) out += "Edges of buildings\n" + edges_text(*e.building_edges, gsd_m);
+  if (e.other_edges) out += "Edges elsewhere\n" + scores_text(*e.other_edges);
   if (!e.classes.empty()) out += classes_text(e);
   if (e.sigma) out += sigma_text(*e.sigma, gsd_m);
   if (e.registration) out += registration_text(*e.registration);

@@ -11,10 +11,11 @@
 
 namespace skysweep::report {
 
-// Largest distances, in photographs' GSD, between an edge and its counterpart.
-inline constexpr std::array<double, 2> kEdgeTolerancesGsd = {1, 2};
+// Largest distances between an edge and its counterpart, in units of the photographs' GSD or of a cell, whichever is
+// larger: the place of a side is known to no better than a cell.
+inline constexpr std::array<double, 2> kEdgeTolerances = {1, 2};
 
-// An edge: the common side of two neighbouring cells whose heights differ by more than a threshold.
+// An edge: the common side of two neighbouring cells on which a step of the surface is concentrated.
 struct HeightEdge {
   int column = 0, row = 0;  // of the western or northern of the two cells
   bool to_south = false;    // the other cell lies south of it; else east
@@ -26,11 +27,16 @@ struct HeightEdge {
   int other_row() const { return row + (to_south ? 1 : 0); }
 };
 
-// All edges of a height field, row by row. No height, no edge: the border of a hole is none.
+// All edges of a height field, row by row: sides across which the heights step by more than `step_m`. A step is what
+// the heights rise (or fall) on the side and on those beside it in the same row or column, as long as they go the same
+// way, less the slope that goes on behind them: a wall that was measured over two or three cells is one edge, a slope
+// is none. Of the sides fewer than three cells apart that step the same way only the strongest is an edge. No height,
+// no edge: the border of a hole is none.
 std::vector<HeightEdge> height_edges(const Array2d<float>& heights, double step_m);
 
 // How many edges of one surface have a counterpart in the other within a tolerance.
 struct EdgeScore {
+  double tolerance_m = 0;           // largest distance of a counterpart
   std::int64_t true_count = 0;      // true edges
   std::int64_t true_found = 0;      // of these: with a measured edge near by
   std::int64_t measured_count = 0;  // measured edges
@@ -39,7 +45,7 @@ struct EdgeScore {
   double recall() const;            // true_found / true_count; NaN without true edges
   double f_score() const;           // harmonic mean; 0 if one of the two kinds is missing, NaN if both are
 };
-using EdgeScores = std::array<EdgeScore, kEdgeTolerancesGsd.size()>;
+using EdgeScores = std::array<EdgeScore, kEdgeTolerances.size()>;
 
 // Edges of the measured surface count where the truth is known. `region` (may be null) is of the cells' size: then only
 // edges with one of their two cells in it (above 0) count; their counterparts may lie anywhere.

@@ -85,6 +85,12 @@ std::string heights(const HeightAccuracy& accuracy) {
   return table(share_head, shares) + table(head, rows);
 }
 
+void add_scores(const char* where, const EdgeScores& scores, std::vector<std::vector<std::string>>& rows) {
+  for (const EdgeScore& s : scores)
+    rows.push_back({format("%s, within %.3g m", where, s.tolerance_m), percent(s.precision()), percent(s.recall()),
+                    number_text(s.f_score(), "%.3f"), count_text(s.measured_count), count_text(s.true_count)});
+}
+
 std::string edges(const Evaluation& e) {
   struct Kind {
     const char* name;
@@ -95,20 +101,16 @@ std::string edges(const Evaluation& e) {
   const double gsd_m = e.heights.gsd_m;
   std::vector<std::vector<std::string>> scores, steps;
   for (const Kind& kind : kinds) {
-    for (std::size_t i = 0; i < kEdgeTolerancesGsd.size(); ++i) {
-      const EdgeScore& s = kind.accuracy->scores[i];
-      scores.push_back({format("%s, within %g GSD", kind.name, kEdgeTolerancesGsd[i]), percent(s.precision()),
-                        percent(s.recall()), number_text(s.f_score(), "%.3f"), count_text(s.measured_count),
-                        count_text(s.true_count)});
-    }
+    add_scores(kind.name, kind.accuracy->scores, scores);
     const StepDisplacement& d = kind.accuracy->steps;
     const auto gsd = [&](double metres) { return number_text(metres / gsd_m, "%+.3f"); };
     steps.push_back({kind.name, count_text(d.steps), count_text(d.found), number_text(d.median_m, "%+.4f"),
                      gsd(d.median_m), gsd(d.mean_m), number_text(d.median_absolute_m / gsd_m, "%.3f"),
                      gsd(d.p5_m) + " to " + gsd(d.p95_m)});
   }
+  if (e.other_edges) add_scores("elsewhere", *e.other_edges, scores);
   return table({"edges", "precision", "recall", "F", "measured", "true"}, scores,
-               format("Sides of cells with a height difference of more than %g m", e.edge_step_m)) +
+               format("Steps of more than %g m", e.edge_step_m)) +
          table({"steps", "straight", "found", "median, m", "median, GSD", "mean, GSD", "|.| median, GSD",
                 "5 to 95 %, GSD"},
                steps, "Displacement of straight steps along their normal; positive = the object has grown");

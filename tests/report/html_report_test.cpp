@@ -25,6 +25,7 @@ Evaluation full_evaluation() {
   e.distribution = error_distribution(cells.dz, 1600, 0.05, 0.15);
   e.edge_step_m = 1;
   e.edges = e.building_edges = edge_accuracy(cells, 1, 0.05, nullptr);
+  e.other_edges = e.edges->scores;
   e.classes = accuracy_by_class(cells, classes, 0.05);
   const std::vector<float> sigma(1600, 0.07f);
   e.sigma = sigma_quality(cells.dz, sigma, 1600, 0.15);
@@ -75,13 +76,15 @@ TEST(HtmlReport, it_loads_nothing) {
 TEST(HtmlReport, it_holds_the_figures_and_charts) {
   const std::string html = to_html(full_evaluation(), page());
   for (const char* word : {"Heights", "Edges", "Classes", "Confidence", "Orthophoto", "data:image/png;base64,", "NMAD",
-                           "0.250", "6 of 12 blocks", "Sigma against true errors"})
+                           "0.250", "6 of 12 blocks", "elsewhere, within 0.1 m", "Sigma against true errors"})
     EXPECT_NE(html.find(word), std::string::npos) << word;
 }
 
 TEST(HtmlReport, what_was_not_measured_has_no_section) {
   Evaluation e = full_evaluation();
   e.edges.reset();
+  e.building_edges.reset();
+  e.other_edges.reset();
   e.classes.clear();
   e.sigma.reset();
   e.registration.reset();
@@ -115,9 +118,11 @@ TEST(HtmlReport, titles_of_charts_fit_into_them) {
 TEST(HtmlReport, text_for_machines_is_json_with_null_for_unknown) {
   Evaluation e = full_evaluation();
   e.edges->steps = {};
+  e.other_edges->front().tolerance_m = 0.1;
   e.edges->steps.median_m = kHole;
   const nlohmann::json json = nlohmann::json::parse(to_json(e));
   EXPECT_TRUE(json.at("edges").at("all").at("step_displacement").at("median_m").is_null());
+  EXPECT_EQ(json.at("edges").at("elsewhere").at("scores").at(0).at("tolerance_gsd"), 2);
   EXPECT_EQ(json.at("classes").at(0).at("name"), "roof & <b>chimney</b>");
   EXPECT_EQ(json.at("orthophoto").at("color").at("blue").at("p95_absolute"), 9);
   EXPECT_EQ(json.at("sigma").at("completeness").size(), 2u);

@@ -58,8 +58,7 @@ void add_evaluate_command(CLI::App& program, ChosenCommand& chosen) {
   command->add_option("--sigma", o->sigma, "Confidence layer of the surface: report whether it can be believed");
   command->add_option("--outlier-gsd", o->outlier_gsd,
                       "Error in GSD from which a height is an outlier that sigma should have marked (default 3)");
-  command->add_option("--edge-step", o->edge_step,
-                      "Height difference between neighbouring cells, metres, that makes an edge (default 1)");
+  command->add_option("--edge-step", o->edge_step, "Height of a step, metres, that makes an edge (default 1)");
   command->add_option("--origin", o->origin, "X,Y,Z added to the check points");
   command->add_option("--min-track", o->min_track, "COLMAP points seen by fewer photographs are left out");
   command->add_option("--max-error", o->max_error,

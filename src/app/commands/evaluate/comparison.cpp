@@ -46,8 +46,11 @@ void compare_edges(const EvaluateOptions& options, const report::HeightDifferenc
   out.edges = report::edge_accuracy(cells, out.edge_step_m, options.gsd, nullptr);
   if (!classes) return;
   constexpr double kMarginGsd = 10;  // around the buildings: a wall that stands too far out is still theirs
-  const Array2d<std::uint8_t> region = report::building_region(*classes, kMarginGsd * options.gsd, cells.grid.cell_m);
-  if (!region.empty()) out.building_edges = report::edge_accuracy(cells, out.edge_step_m, options.gsd, &region);
+  Array2d<std::uint8_t> region = report::building_region(*classes, kMarginGsd * options.gsd, cells.grid.cell_m);
+  if (region.empty()) return;
+  out.building_edges = report::edge_accuracy(cells, out.edge_step_m, options.gsd, &region);
+  for (std::uint8_t& inside : region) inside = !inside;
+  out.other_edges = report::compare_edges(cells, out.edge_step_m, options.gsd, &region);
 }
 
 Comparison compare_with_surface(const EvaluateOptions& options) {
