@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # OpenCV's modules one by one. Debian's OpenCVConfig.cmake comes only with libopencv-dev, which brings viewers, Java and
-# VTK along; the three modules used here have -dev packages of their own.
+# VTK along; the modules used here have -dev packages of their own.
 
 find_path(OpenCVModules_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 set(OpenCVModules_LIBRARIES_FOUND TRUE)
-foreach(module core imgcodecs calib3d)
+foreach(module core imgcodecs imgproc calib3d)
   find_library(OpenCVModules_${module}_LIBRARY opencv_${module})
   if(NOT OpenCVModules_${module}_LIBRARY)
     set(OpenCVModules_LIBRARIES_FOUND FALSE)

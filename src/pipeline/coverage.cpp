@@ -52,7 +52,7 @@ std::vector<tiles::TileKey> Coverage::tiles(const std::optional<Box2d>& area) co
   const Box2d mapped = index_.mapped_area();
   if (mapped.empty()) return {};
   const tiles::Lattice& lattice = settings_.lattice;
-  const tiles::TileKey first = lattice.key_at(0, mapped.min), last = lattice.key_at(0, mapped.max);
+  const tiles::TileKey first = lattice.key_at(0, mapped.min);
   std::vector<tiles::TileKey> keys;
   for (const tiles::TileKey key : touched_tiles(mapped)) {
     if (area && !area->intersects(lattice.extent(key))) continue;

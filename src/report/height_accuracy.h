@@ -12,6 +12,7 @@
 
 #include "core/vec.h"
 #include "raster/geotiff.h"
+#include "report/height_differences.h"
 
 namespace skysweep::report {
 
@@ -47,14 +48,30 @@ struct AccuracyOptions {
   double gsd_m = 0;  // > 0: ground sampling distance of the photographs (not the side of an output cell)
 };
 
-// The surface at every cell of `truth` that has a height. If both rasters lie on one lattice, cell by cell; else the
+// Figures of the dz of all measured heights (none of them NaN; single precision is plenty for differences and halves
+// the memory). `reference_count` counts the holes, too.
+HeightErrors height_errors(std::vector<float> dz, std::int64_t reference_count, double gsd_m);
+
+// The surface at every cell that has a true height. `mask` (may be null) is of the cells' size; a cell is inside where
+// it is above 0. Throws Error(usage) if the GSD is not positive.
+HeightAccuracy accuracy_of(const HeightDifferences& cells, const Array2d<std::uint8_t>* mask,
+                           const AccuracyOptions& options);
+
+// The same from two rasters. If both rasters lie on one lattice, cell by cell; else the
 // DSM is interpolated bilinearly at the centre of the truth's cell, which needs all four neighbours known. `mask` (may
 // be null) lies on the truth's grid; a cell is inside where it is above 0.
 // Throws Error(usage) if the CRSs differ, the mask lies elsewhere, or the GSD is not positive.
 HeightAccuracy compare_surfaces(const raster::Raster<float>& dsm, const raster::Raster<float>& truth,
                                 const raster::Raster<std::uint8_t>* mask, const AccuracyOptions& options);
 
-// The surface, interpolated bilinearly, at points given in its CRS. Points outside or in holes are not valid.
+// Measured minus true height, the surface interpolated bilinearly, at points given in its CRS; NaN outside and in
+// holes.
+std::vector<float> point_differences(const raster::Raster<float>& dsm, const std::vector<Vec3d>& points);
+
+// Figures of these: NaN counts as a hole.
+HeightAccuracy accuracy_of(const std::vector<float>& point_differences, const AccuracyOptions& options);
+
+// Both in one.
 HeightAccuracy compare_points(const raster::Raster<float>& dsm, const std::vector<Vec3d>& points,
                               const AccuracyOptions& options);
 

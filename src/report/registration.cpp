@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/error.h"
-#include "raster/crs.h"
+#include "report/ortho_lattice.h"
 #include "report/quantile.h"
 
 namespace skysweep::report {
@@ -23,28 +22,20 @@ Array2d<float> luminance(const Array2d<Rgba8>& image) {
   return out;
 }
 
-// A square window of an image as zero-mean values of unit length; nothing if it has holes or no texture.
-std::optional<std::vector<float>> normalised_window(const Array2d<float>& image, int column, int row, int side,
-                                                    double min_deviation) {
-  std::vector<float> window;
-  window.reserve(static_cast<std::size_t>(side) * side);
+// Makes the values zero-mean and of unit length; false if they deviate less than `min_deviation` (no texture).
+bool normalise(std::vector<float>& window, double min_deviation) {
   double sum = 0;
-  for (int y = row; y < row + side; ++y)
-    for (int x = column; x < column + side; ++x) {
-      if (image(x, y) < 0) return std::nullopt;
-      window.push_back(image(x, y));
-      sum += image(x, y);
-    }
+  for (const float value : window) sum += value;
   const double mean = sum / static_cast<double>(window.size());
   double squares = 0;
   for (float& value : window) {
     value -= static_cast<float>(mean);
     squares += static_cast<double>(value) * value;
   }
-  if (squares < min_deviation * min_deviation * static_cast<double>(window.size())) return std::nullopt;
+  if (squares < min_deviation * min_deviation * static_cast<double>(window.size())) return false;
   const auto scale = static_cast<float>(1 / std::sqrt(squares));
   for (float& value : window) value *= scale;
-  return window;
+  return true;
 }
 
 // Position of the top of the parabola through three equidistant values, the middle one the largest.
@@ -53,59 +44,71 @@ double parabola_top(double before, double top, double after) {
   return curvature < 0 ? 0.5 * (before - after) / curvature : 0;
 }
 
-struct BlockMatcher {
-  const Array2d<float>& ortho;
-  const Array2d<float>& truth;
-  Vec2d offset;  // truth column and row + offset = column and row of the orthophoto
-  const RegistrationOptions& options;
+class BlockMatcher {
+ public:
+  BlockMatcher(const Array2d<float>& ortho, const Array2d<float>& truth, CellOffset offset,
+               const RegistrationOptions& options)
+      : ortho_(ortho), truth_(truth), offset_(offset), options_(options) {}
 
   // Shift of the block of the truth at (column, row), in columns and rows; nothing if it cannot be told.
-  std::optional<Vec2d> shift(int column, int row) const {
-    const int side = options.block_cells, reach = options.search_cells;
-    const auto block = normalised_window(truth, column, row, side, options.min_deviation);
-    if (!block) return std::nullopt;
-    const int left = column + static_cast<int>(offset.x), top = row + static_cast<int>(offset.y);
-    if (!ortho.contains(left - reach, top - reach) || !ortho.contains(left + side - 1 + reach, top + side - 1 + reach))
+  std::optional<Vec2d> shift(int column, int row) {
+    const int side = options_.block_cells, reach = options_.search_cells;
+    const int left = column + offset_.columns, top = row + offset_.rows;
+    if (!ortho_.contains(left - reach, top - reach) ||
+        !ortho_.contains(left + side - 1 + reach, top + side - 1 + reach))
       return std::nullopt;
     Array2d<double> correlation(2 * reach + 1, 2 * reach + 1);
     int best_x = 0, best_y = 0;
     for (int y = 0; y < correlation.height(); ++y)
       for (int x = 0; x < correlation.width(); ++x) {
-        const auto other = normalised_window(ortho, left + x - reach, top + y - reach, side, options.min_deviation);
-        if (!other) return std::nullopt;
-        double sum = 0;
-        for (std::size_t i = 0; i < block->size(); ++i) sum += static_cast<double>((*block)[i]) * (*other)[i];
-        correlation(x, y) = sum;
-        if (sum > correlation(best_x, best_y)) best_x = x, best_y = y;
+        const std::optional<double> here = masked_correlation(column, row, left + x - reach, top + y - reach);
+        if (!here) return std::nullopt;
+        correlation(x, y) = *here;
+        if (*here > correlation(best_x, best_y)) best_x = x, best_y = y;
       }
     const bool on_border = best_x == 0 || best_y == 0 || best_x == 2 * reach || best_y == 2 * reach;
-    if (on_border || correlation(best_x, best_y) < options.min_correlation) return std::nullopt;
+    if (on_border || correlation(best_x, best_y) < options_.min_correlation) return std::nullopt;
     const double peak = correlation(best_x, best_y);
     return Vec2d{best_x - reach + parabola_top(correlation(best_x - 1, best_y), peak, correlation(best_x + 1, best_y)),
                  best_y - reach + parabola_top(correlation(best_x, best_y - 1), peak, correlation(best_x, best_y + 1))};
   }
+
+ private:
+  // Correlation of a block of the truth with one of the orthophoto over the cells that both have colours for, each
+  // normalised over just these (Padfield 2012, IEEE TIP 21); nothing if these are too few or have no texture.
+  std::optional<double> masked_correlation(int column, int row, int ortho_column, int ortho_row) {
+    const int side = options_.block_cells;
+    true_window_.clear();
+    ortho_window_.clear();
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const float a = truth_(column + x, row + y), b = ortho_(ortho_column + x, ortho_row + y);
+        if (a < 0 || b < 0) continue;
+        true_window_.push_back(a);
+        ortho_window_.push_back(b);
+      }
+    if (static_cast<double>(true_window_.size()) < options_.min_known_share * side * side) return std::nullopt;
+    if (!normalise(true_window_, options_.min_deviation) || !normalise(ortho_window_, options_.min_deviation))
+      return std::nullopt;
+    double sum = 0;
+    for (std::size_t i = 0; i < true_window_.size(); ++i)
+      sum += static_cast<double>(true_window_[i]) * ortho_window_[i];
+    return sum;
+  }
+
+  const Array2d<float>& ortho_;
+  const Array2d<float>& truth_;
+  const CellOffset offset_;
+  const RegistrationOptions& options_;
+  std::vector<float> true_window_, ortho_window_;  // kept, so that they are not allocated for every shift
 };
 
-// Truth column and row + this = column and row of the orthophoto.
-Vec2d lattice_offset(const raster::GeoReference& ortho, const raster::GeoReference& truth) {
-  if (!raster::same_crs(ortho.crs_wkt, truth.crs_wkt))
-    throw usage_error("the orthophoto is in " + raster::crs_name(ortho.crs_wkt) + " but the true one is in " +
-                      raster::crs_name(truth.crs_wkt) + ": bring both into one system first");
-  const Vec2d corners = truth.north_west_corner - ortho.north_west_corner;
-  const Vec2d exact{corners.x / truth.cell_m, -corners.y / truth.cell_m};
-  const Vec2d whole{std::round(exact.x), std::round(exact.y)};
-  constexpr double kTolerance = 1e-3;
-  if (std::abs(ortho.cell_m / truth.cell_m - 1) > 1e-9 || norm(exact - whole) > kTolerance)
-    throw usage_error("the orthophoto and the true one lie on different grids: make both with the same cell");
-  return whole;
-}
-
-void compare_colors(const Array2d<Rgba8>& ortho, const Array2d<Rgba8>& truth, Vec2d offset, Registration& out) {
+void compare_colors(const Array2d<Rgba8>& ortho, const Array2d<Rgba8>& truth, CellOffset offset, Registration& out) {
   std::vector<float> differences;
   double sum = 0;
   for (int row = 0; row < truth.height(); ++row)
     for (int column = 0; column < truth.width(); ++column) {
-      const int x = column + static_cast<int>(offset.x), y = row + static_cast<int>(offset.y);
+      const int x = column + offset.columns, y = row + offset.rows;
       if (!ortho.contains(x, y) || ortho(x, y).a == 0 || truth(column, row).a == 0) continue;
       const Rgba8 a = ortho(x, y), b = truth(column, row);
       const float difference = static_cast<float>(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b)) / 3;
@@ -120,9 +123,9 @@ void compare_colors(const Array2d<Rgba8>& ortho, const Array2d<Rgba8>& truth, Ve
 
 Registration compare_orthophotos(const raster::Raster<Rgba8>& ortho, const raster::Raster<Rgba8>& truth,
                                  const RegistrationOptions& options) {
-  const Vec2d offset = lattice_offset(ortho.georeference, truth.georeference);
+  const CellOffset offset = lattice_offset(ortho.georeference, truth.georeference);
   const Array2d<float> ortho_luminance = luminance(ortho.values), truth_luminance = luminance(truth.values);
-  const BlockMatcher matcher{ortho_luminance, truth_luminance, offset, options};
+  BlockMatcher matcher(ortho_luminance, truth_luminance, offset, options);
   Registration out;
   std::vector<float> lengths, east, north;
   const int side = options.block_cells;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the codes of a raster of classes mean.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace skysweep::raster {
+
+// Names by code (names[2] belongs to the value 2): the category names that GDAL finds in the raster or the .aux.xml
+// file beside it; else those of the metadata item CLASS_NAMES, separated by commas. Empty if there are none. Throws
+// Error(bad_input) naming the file if it is no raster.
+std::vector<std::string> read_class_names(const std::filesystem::path& path);
+
+}  // namespace skysweep::raster
