@@ -86,8 +86,10 @@ TEST(HardGeometry, identical_centres_of_projection_serve_a_tile_once) {
   }
   const auto selection = index::select_views(candidates, {{-3, -3}, {3, 3}}, -1, 1, {});
   EXPECT_EQ(selection.chosen.size(), 1u);
-  for (const index::ViewVerdict& verdict : selection.verdicts)
-    if (!verdict.chosen) EXPECT_NE(verdict.reason.find("same position as view"), std::string::npos) << verdict.reason;
+  for (const index::ViewVerdict& verdict : selection.verdicts) {
+    if (verdict.chosen) continue;
+    EXPECT_NE(verdict.reason.find("same position as view"), std::string::npos) << verdict.reason;
+  }
 }
 
 struct Baseline {
