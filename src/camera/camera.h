@@ -33,7 +33,7 @@ class Camera {
   // Unit vector in the world along which the pixel looks; nothing where the lens model cannot be inverted.
   std::optional<Vec3d> ray(Vec2d pixel) const;
 
-  // Where the ray of the pixel meets the horizontal plane at z (METHODS: a pixel fixes x, y only once z is known);
+  // Where the ray of the pixel meets the horizontal plane at z (a pixel fixes x, y only once z is known);
   // nothing if it never does in front of the camera.
   std::optional<Vec3d> at_height(Vec2d pixel, double z) const;
 
@@ -71,7 +71,7 @@ double off_nadir_deg(const Pose& pose);
 // Empty if the camera is below z_low or sees nothing of it within the distance.
 std::vector<Vec2d> footprint(const Camera& camera, double z_low, double z_high, double max_distance_m);
 
-// Axis-aligned box of the view pyramid: from the CoP to the footprint at z_low (METHODS section 2). Key of the R*-tree.
+// Axis-aligned box of the view pyramid: from the CoP to the footprint at z_low. Key of the R*-tree.
 Box3d view_pyramid_box(const Camera& camera, double z_low, double max_distance_m);
 
 }  // namespace skysweep::camera

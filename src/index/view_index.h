@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which photographs can see a place: an R*-tree over the boxes of their view pyramids (METHODS section 2).
+// Which photographs can see a place: an R*-tree over the boxes of their view pyramids (Feldmann 2013).
 #pragma once
 
 #include <memory>

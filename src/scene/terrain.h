@@ -77,8 +77,8 @@ struct QuarryTerrain {
   double corner_radius_m() const;  // of the rim: just enough that the lowest corner is round
 };
 
-// An island with a fractal coast: a seeded Koch curve about `center` (METHODS: Koch-curve outlines), sampled on a fine
-// lattice and interpolated smoothly. The shore is at z = 0, where the water level is by default.
+// An island with a fractal coast: a seeded Koch curve about `center` (Rommel 2008: Koch-curve outlines), sampled on a
+// fine lattice and interpolated smoothly. The shore is at z = 0, where the water level is by default.
 struct IslandTerrain {
   Vec2d center;
   double radius_m = 35;    // of the triangle's corners; the coast reaches a little beyond
@@ -104,7 +104,7 @@ struct TerrainModification {
   std::vector<double> heights_m;
 };
 
-// -depth exp(-r^2/2) on a 9 x 9 matrix that spans r = -4 to 4 (S3's crater; METHODS 7).
+// -depth exp(-r^2/2) on a 9 x 9 matrix that spans r = -4 to 4 (the crater of Rommel 2008).
 TerrainModification crater(Vec2d center, Vec2d size_m, double depth_m);
 
 struct Terrain {

@@ -19,7 +19,7 @@ struct DepthProbe {
 };
 
 // `reference` looks down (near-vertical); `neighbours` overlap with it, presumably. Cameras in a common local frame.
-// Matches by zero-mean normalised cross-correlation of 5 x 5 low-resolution pixels (METHODS section 4), so that
+// Matches by zero-mean normalised cross-correlation of 5 x 5 low-resolution pixels, so that
 // exposure differences do not matter. Nothing when too few pixels find a clear match.
 std::optional<DepthProbe> probe_depth(const View& reference, const std::vector<View>& neighbours);
 

@@ -14,7 +14,7 @@
 
 namespace skysweep::sweep {
 
-// Luminance in units of 1/256 grey level (Y = 0.212671 R + 0.715160 G + 0.072169 B, METHODS section 4), with a border
+// Luminance in units of 1/256 grey level (Y = 0.212671 R + 0.715160 G + 0.072169 B), with a border
 // of one repeated pixel on every side, so that bilinear sampling anywhere on the photograph reads inside the array.
 struct LuminanceLevel {
   int width = 0;  // without the border

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plane sweep: heights, their standard deviation and true-orthophoto colours of a grid of cells from photographs
-// with known poses (METHODS section 4). Pure: the same problem gives the same bits for any executor.
+// with known poses (Feldmann 2013). Pure: the same problem gives the same bits for any executor.
 #pragma once
 
 #include "sweep/backend.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the plane sweep is asked: a grid of cells, a stack of height planes, and the photographs that look at them
-// (METHODS section 4).
+// (Feldmann 2013).
 #pragma once
 
 #include <vector>

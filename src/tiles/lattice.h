@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The unbounded lattice of tiles and height planes, anchored at the world's origin (METHODS section 3). It is fixed
+// The unbounded lattice of tiles and height planes, anchored at the world's origin (Feldmann 2013). It is fixed
 // when a project is made and never moves.
 #pragma once
 
@@ -33,7 +33,7 @@ struct Lattice {
 };
 
 // The levels that serve a set of level-0 tiles whose indices span [min_x, max_x] x [min_y, max_y]: the top covers the
-// at most 2 x 2 tiles of the highest regular level, L-2 in METHODS.
+// at most 2 x 2 tiles of the highest regular level, L-2.
 struct LevelPlan {
   int highest_regular_level = 0;  // L - 2
   TileKey top_south_west;         // the south-west one of the (at most) 2 x 2 tiles below the top

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coarser levels of the map from finer ones: each cell from 2 x 2 cells below it (METHODS section 3).
+// Coarser levels of the map from finer ones: each cell from 2 x 2 cells below it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The name of a tile, unique for ever: growing the map never renames one (METHODS section 3).
+// The name of a tile, unique for ever: growing the map never renames one.
 #pragma once
 
 #include <compare>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outlines of islands: a Koch curve whose bumps vary in size and, now and then, turn inwards (METHODS: Koch-curve
+// Outlines of islands: a Koch curve whose bumps vary in size and, now and then, turn inwards (the classic Koch-curve
 // outlines; Koch 1904).
 #pragma once
 
