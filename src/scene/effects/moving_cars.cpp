@@ -15,9 +15,9 @@ namespace skysweep::scene {
 namespace {
 
 constexpr std::uint64_t kTrafficStream = 0xeffca5;
-constexpr double kCell_m = 8;     // of the grid in which cars are looked up
-constexpr double kSpace_m = 7;    // the least a car takes of its lane
-constexpr double kAround_m = 30;  // cars this far outside a photograph throw shadows into it
+constexpr double kCell_m = 8;       // of the grid in which cars are looked up
+constexpr double kSpace_m = 7;      // the least a car takes of its lane
+constexpr double kAround_m = 30;    // cars this far outside a photograph throw shadows into it
 constexpr double kPassable_m = 10;  // width of a street with parked cars on both sides and room between them
 constexpr std::array<LinearRgb, 5> kPaints = {{{0.62f, 0.62f, 0.60f},
                                                {0.03f, 0.03f, 0.035f},
