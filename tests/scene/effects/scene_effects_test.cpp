@@ -104,7 +104,9 @@ TEST(SceneEffects, a_scene_that_names_one_calls_that_one_and_no_other) {
     EXPECT_EQ(changed == 0, metadata);
     EXPECT_EQ(bytes(folder / "poses.csv") == bytes(plain / "poses.csv"), !metadata);
     EXPECT_EQ(fs::exists(folder / "truth/poses.csv"), metadata);
-    if (metadata) EXPECT_EQ(bytes(folder / "truth/poses.csv"), bytes(plain / "poses.csv"));
+    if (metadata) {
+      EXPECT_EQ(bytes(folder / "truth/poses.csv"), bytes(plain / "poses.csv"));
+    }
     const auto ortho = [](const fs::path& of) { return raster::read_color_raster(of / "truth/ortho.tif").values; };
     EXPECT_EQ(ortho(folder) == ortho(plain), name != "sky");
     EXPECT_EQ(raster::read_float_raster(folder / "truth/dsm.tif").values,
