@@ -30,7 +30,7 @@ constexpr int kNeighborhoodCoarseCells = 4;
 // texture is gone at that scale, with false matches in between): all heights of the tile are searched there, if they
 // are at most so many planes: more cost minutes on real photographs of woods and gained nothing.
 constexpr double kLeastKnownShare = 0.75;
-constexpr int kMostPlanesSearchedBlindly = 300;
+constexpr int kMostPlanesSearchedBlindly = 400;
 
 // At least kFewestCoarsePlanes of them around the same middle.
 PlaneRange comparable_planes(PlaneRange planes) {

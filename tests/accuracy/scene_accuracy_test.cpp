@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <ostream>
 
 #include "accuracy/expectations.h"
 #include "export/mosaic.h"
@@ -78,12 +79,18 @@ std::map<std::string, double> figures(const scene::Simulation& flight, const std
 }
 
 // A scene with everything that is stored about it.
-class SceneAccuracy : public testing::TestWithParam<std::vector<Case>> {};
+struct SceneCases {
+  std::vector<Case> cases;
+  const std::string& name() const { return cases.front().scene; }
+  friend std::ostream& operator<<(std::ostream& out, const SceneCases& s) { return out << s.name(); }
+};
+
+class SceneAccuracy : public testing::TestWithParam<SceneCases> {};
 
 TEST_P(SceneAccuracy, is_no_worse_than_stored) {
   const testing_support::TempFolder folder;
-  const scene::Simulation flight = simulated(GetParam().front().scene, folder / "flight");
-  for (const Case& stored : GetParam()) {
+  const scene::Simulation flight = simulated(GetParam().name(), folder / "flight");
+  for (const Case& stored : GetParam().cases) {
     SCOPED_TRACE(stored.preset);
     const std::map<std::string, double> measured = figures(flight, stored.preset, folder.path());
     for (const auto& [metric, value] : measured) RecordProperty(stored.preset + "." + metric, std::to_string(value));
@@ -95,17 +102,17 @@ TEST_P(SceneAccuracy, is_no_worse_than_stored) {
   }
 }
 
-std::vector<std::vector<Case>> cases_by_scene() {
-  std::vector<std::vector<Case>> scenes;
+std::vector<SceneCases> cases_by_scene() {
+  std::vector<SceneCases> scenes;
   for (const Case& stored : read_expectations(kHere / "expected.csv")) {
-    if (scenes.empty() || scenes.back().front().scene != stored.scene) scenes.emplace_back();
-    scenes.back().push_back(stored);
+    if (scenes.empty() || scenes.back().name() != stored.scene) scenes.emplace_back();
+    scenes.back().cases.push_back(stored);
   }
   return scenes;
 }
 
 INSTANTIATE_TEST_SUITE_P(Stored, SceneAccuracy, testing::ValuesIn(cases_by_scene()),
-                         [](const auto& scene) { return scene.param.front().scene; });
+                         [](const auto& scene) { return scene.param.name(); });
 
 }  // namespace
 }  // namespace skysweep::accuracy
