@@ -12,13 +12,13 @@ namespace {
 using namespace skysweep;
 using namespace skysweep::scene;
 
-Scene town(double contrast, bool shadows) {
+Scene town(bool textured, bool shadows) {
   Scene scene;
   scene.seed = 7;
   scene.area_m = {120, 90};
   scene.terrain = {2.5, 70};
   scene.town.emplace();
-  scene.texture.contrast = contrast;
+  if (!textured) scene.texture.ground = GroundTexture::none;
   scene.light.shadows = shadows;
   scene.camera = camera::camera_from_sensor(12, 12, 1000, 750);
   scene.flight.beyond_area_m = -30;
@@ -27,8 +27,8 @@ Scene town(double contrast, bool shadows) {
 
 // A photograph of the middle of the town.
 const RayThroughput& view(bool textured, bool shadows) {
-  static const RayThroughput views[] = {RayThroughput(town(0, false)), RayThroughput(town(0, true)),
-                                        RayThroughput(town(1, false)), RayThroughput(town(1, true))};
+  static const RayThroughput views[] = {RayThroughput(town(false, false)), RayThroughput(town(false, true)),
+                                        RayThroughput(town(true, false)), RayThroughput(town(true, true))};
   return views[2 * textured + shadows];
 }
 

@@ -30,6 +30,7 @@ enum class GroundTexture {
   asphalt,  // grey without contrast: nothing to match
   checker,  // squares of two greys
   image,    // a georeferenced orthophoto, draped over the ground
+  none,     // no texture on any surface: each kind of surface has its grey
 };
 
 // Procedural detail of all surfaces: it never repeats, but where the ground is told to.
@@ -55,8 +56,9 @@ std::string file_ending(PhotoFormat format);
 struct Photographs {
   PhotoFormat format = PhotoFormat::jpeg;
   int jpeg_quality = 95;
-  double noise_sigma = 0;  // normal noise of each channel of each pixel, grey levels
-  double gain_spread = 0;  // standard deviation of the logarithm of each photograph's exposure
+  double noise_sigma = 0;       // normal noise of each channel of each pixel, grey levels
+  double gain_spread = 0;       // standard deviation of the logarithm of each photograph's exposure
+  double max_error_levels = 0;  // of a pixel's anti-aliased mean, grey levels: scene/render/photograph.h
 };
 
 // EXIF and XMP tags as a drone writes them (formats/photo_metadata.h). Positions need a scene with a crs.

@@ -37,6 +37,7 @@ Photographs read_photographs(const TomlTable& table) {
     throw usage_error(table.where("noise_sigma") +
                       " has no effect on EXR files, which hold light and no grey levels: remove it");
   read(table, "gain_spread", out.gain_spread, 0, 3);
+  read(table, "max_error_levels", out.max_error_levels, 0, 100);
   return out;
 }
 

@@ -39,6 +39,8 @@ std::string scene_to_json(const Scene& scene) {
                         {"jpeg_quality", scene.photographs.jpeg_quality},
                         {"noise_sigma", scene.photographs.noise_sigma},
                         {"gain_spread", scene.photographs.gain_spread}};
+  if (scene.photographs.max_error_levels > 0)
+    out["photographs"]["max_error_levels"] = scene.photographs.max_error_levels;
   add_products_json(scene, out);
   if (const Json effects = effects_json(scene.effects); !effects.empty()) out["effects"] = effects;
   return out.dump(2) + "\n";

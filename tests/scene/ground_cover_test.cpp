@@ -6,7 +6,10 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/error.h"
@@ -123,6 +126,26 @@ TEST(GroundCover, asphalt_has_no_contrast_and_a_checker_has_two_greys) {
   EXPECT_EQ(light[1], light[2]);
   EXPECT_EQ(light[1], light[4]);
   EXPECT_GT(light[0], 2 * light[1]);
+}
+
+TEST(GroundCover, without_texture_ground_and_roofs_have_a_grey_each) {
+  Scene scene = level_scene(0.05);
+  scene.town.emplace();
+  scene.texture.ground = GroundTexture::none;
+  scene.light.shadows = false;
+  const World world(scene, kVisible);
+  std::map<Face, std::set<std::tuple<float, float, float>>> colors;
+  Random random(7);
+  for (int i = 0; i < 500; ++i) {
+    const Ray down{{random.uniform(0, 160), random.uniform(0, 160), 200}, {0, 0, -1}};
+    SurfacePoint hit;
+    LinearRgb light;
+    world.look(&down, 1, &hit, &light);
+    colors[hit.face].insert({light.r, light.g, light.b});
+  }
+  EXPECT_EQ(colors[Face::ground].size(), 1u);
+  EXPECT_EQ(colors[Face::top].size(), 1u);
+  EXPECT_NE(colors[Face::ground], colors[Face::top]);
 }
 
 TEST(GroundCover, an_orthophoto_lies_on_the_ground_where_its_coordinates_say) {

@@ -141,8 +141,9 @@ TEST(TerrainFile, wrong_values_are_refused_with_the_key_and_what_it_may_be) {
   expect_refused("[[terrain.modification]]\nkind = \"dent\"\n", "must be crater or matrix");
   expect_refused("[[terrain.modification]]\nkind = \"matrix\"\ncolumns = 2\nrows = 2\nheights_m = [1]\n",
                  "columns x rows numbers");
-  expect_refused("[texture]\nkind = \"snow\"\n", "natural, tiles, asphalt, checker or image, not \"snow\"");
+  expect_refused("[texture]\nkind = \"snow\"\n", "natural, tiles, asphalt, checker, image or none, not \"snow\"");
   expect_refused("[texture]\nkind = \"image\"\n", "file must name the orthophoto");
+  expect_refused("[texture]\nkind = \"none\"\ncontrast = 1\n", "none has neither contrast nor finest_m");
 }
 
 TEST(TerrainFile, keys_of_another_kind_are_refused_for_they_would_have_no_effect) {

@@ -197,11 +197,12 @@ Texture read_texture(const TomlTable& table) {
   Texture out;
   read(table, "contrast", out.contrast, 0, 10);
   read(table, "finest_m", out.finest_m, kTiny);
-  constexpr std::array<std::pair<const char*, GroundTexture>, 5> kKinds = {{{"natural", GroundTexture::natural},
+  constexpr std::array<std::pair<const char*, GroundTexture>, 6> kKinds = {{{"natural", GroundTexture::natural},
                                                                             {"tiles", GroundTexture::tiles},
                                                                             {"asphalt", GroundTexture::asphalt},
                                                                             {"checker", GroundTexture::checker},
-                                                                            {"image", GroundTexture::image}}};
+                                                                            {"image", GroundTexture::image},
+                                                                            {"none", GroundTexture::none}}};
   const std::string kind = table.string("kind").value_or("natural");
   bool found = false;
   for (const auto& [name, ground] : kKinds) {
@@ -210,7 +211,10 @@ Texture read_texture(const TomlTable& table) {
     found = true;
   }
   if (!found)
-    throw usage_error(table.where("kind") + " must be natural, tiles, asphalt, checker or image, not \"" + kind + "\"");
+    throw usage_error(table.where("kind") + " must be natural, tiles, asphalt, checker, image or none, not \"" + kind +
+                      "\"");
+  if (out.ground == GroundTexture::none && (table.has("contrast") || table.has("finest_m")))
+    throw usage_error(table.where("kind") + " none has neither contrast nor finest_m: leave them out");
   if (out.ground == GroundTexture::tiles || out.ground == GroundTexture::checker)
     read(table, "period_m", out.period_m, kTiny);
   if (out.ground == GroundTexture::image) {

@@ -78,6 +78,7 @@ Json texture_json(const Scene& scene) {
     case GroundTexture::natural: break;
     case GroundTexture::tiles: out.update({{"kind", "tiles"}, {"period_m", texture.period_m}}); break;
     case GroundTexture::asphalt: out["kind"] = "asphalt"; break;
+    case GroundTexture::none: return {{"kind", "none"}};
     case GroundTexture::checker: out.update({{"kind", "checker"}, {"period_m", texture.period_m}}); break;
     case GroundTexture::image:
       out["kind"] = "image";

@@ -40,10 +40,11 @@ void write_depth(const fs::path& path, const Array2d<float>& depth, const std::s
 TakenPhotograph take(const Scene& scene, const World& world, const PixelRays& rays, const camera::Pose& pose,
                      const Exposure& exposure, const PhotographEffects* effects, Executor& executor) {
   TakenPhotograph out;
+  const Sampling sampling{static_cast<float>(scene.photographs.max_error_levels)};
   if (scene.photographs.format == PhotoFormat::exr)
-    out.light = take_linear_photograph(world, scene.camera, rays, pose, exposure, executor, effects);
+    out.light = take_linear_photograph(world, scene.camera, rays, pose, exposure, executor, effects, sampling);
   else
-    out.levels = take_photograph(world, scene.camera, rays, pose, exposure, executor, effects);
+    out.levels = take_photograph(world, scene.camera, rays, pose, exposure, executor, effects, sampling);
   if (scene.truth.depth) out.depth = depth_image(world, scene.camera, rays, pose, executor);
   return out;
 }

@@ -34,6 +34,8 @@ class Ground {
   // The plain rolling ground, without shape, modification or water: its mesh needs none of the bounds below.
   bool plain() const { return !shape_ && modifications_.empty() && !water_level_m_; }
   bool level() const { return plain() && !rolls_; }
+  // Null if it does not roll.
+  const Waves* rolling() const { return rolls_ ? &rolling_ : nullptr; }
   double shortest_wave_m() const { return rolling_.shortest_wave_m(); }
 
   // How a mesh has to lie, and how much it may deviate: see TerrainSurface.

@@ -11,6 +11,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "scene/world/rolling_ground.h"
 
 namespace skysweep::scene {
 namespace {
@@ -111,16 +112,16 @@ double to_plane(const Ray& ray, Vec3d normal, Vec3d point) {
 }
 
 // All 16 lanes are set, so that a packet may be copied.
-void prepare(const Ray* rays, int count, RTCRayHit16& packet, int* valid) {
+void prepare(const RayLanes& rays, int count, RTCRayHit16& packet, int* valid) {
   for (int i = 0; i < Tracer::kBatch; ++i) {
-    const Ray& ray = rays[i < count ? i : 0];
+    const auto at = static_cast<std::size_t>(i);
     valid[i] = i < count ? -1 : 0;
-    packet.ray.org_x[i] = static_cast<float>(ray.origin.x);
-    packet.ray.org_y[i] = static_cast<float>(ray.origin.y);
-    packet.ray.org_z[i] = static_cast<float>(ray.origin.z);
-    packet.ray.dir_x[i] = static_cast<float>(ray.direction.x);
-    packet.ray.dir_y[i] = static_cast<float>(ray.direction.y);
-    packet.ray.dir_z[i] = static_cast<float>(ray.direction.z);
+    packet.ray.org_x[i] = static_cast<float>(rays.ox[at]);
+    packet.ray.org_y[i] = static_cast<float>(rays.oy[at]);
+    packet.ray.org_z[i] = static_cast<float>(rays.oz[at]);
+    packet.ray.dir_x[i] = static_cast<float>(rays.dx[at]);
+    packet.ray.dir_y[i] = static_cast<float>(rays.dy[at]);
+    packet.ray.dir_z[i] = static_cast<float>(rays.dz[at]);
     packet.ray.tnear[i] = 0;
     packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
     packet.ray.time[i] = 0;
@@ -227,12 +228,15 @@ void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
   SKY_CHECK_LE(count, kBatch);
   alignas(64) int valid[kBatch];
   RTCRayHit16 packet;
-  prepare(rays, count, packet, valid);
+  const RayLanes lanes(rays, count);
+  prepare(lanes, count, packet, valid);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = embree_->traversal;
   rtcIntersect16(valid, embree_->scene, &context, &packet);
 
+  GroundHits ground;
+  if (!ground_tracer_) meet_rolling_ground(ground_.rolling(), lanes, packet.ray.tfar, ground);
   for (int i = 0; i < count; ++i) {
     SurfacePoint& hit = hits[i];
     hit = {};
@@ -245,13 +249,10 @@ void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
       hit.facet = static_cast<int>(packet.hit.primID[i]);
       hit_facet(ray, hit);
     } else if (packet.hit.geomID[i] == kGroundId) {
-      // One step of Newton's method from the mesh, which is only millimetres away.
-      const Vec3d near = ray.origin + static_cast<double>(packet.ray.tfar[i]) * ray.direction;
-      const Ground::Sample ground = ground_.at({near.x, near.y});
-      const Vec3d normal{-ground.slope.x, -ground.slope.y, 1};
+      const auto at = static_cast<std::size_t>(i);
       hit.face = Face::ground;
-      hit.position = ray.origin + to_plane(ray, normal, {near.x, near.y, ground.z}) * ray.direction;
-      hit.normal = normalized(normal);
+      hit.position = {ground.x[at], ground.y[at], ground.z[at]};
+      hit.normal = {ground.nx[at], ground.ny[at], ground.nz[at]};
     } else if (packet.hit.geomID[i] == kBoxesId) {
       hit.box = static_cast<int>(packet.hit.primID[i]) / kFacesOfBox;
       const int face = static_cast<int>(packet.hit.primID[i]) % kFacesOfBox;
@@ -342,7 +343,7 @@ std::function<int()> Tracer::embree_alone(const std::vector<Ray>& rays) const {
   std::vector<Packet> packets((rays.size() + kBatch - 1) / kBatch);
   for (std::size_t i = 0; i < packets.size(); ++i) {
     const int count = static_cast<int>(std::min<std::size_t>(kBatch, rays.size() - i * kBatch));
-    prepare(rays.data() + i * kBatch, count, packets[i].rays, packets[i].valid);
+    prepare(RayLanes(rays.data() + i * kBatch, count), count, packets[i].rays, packets[i].valid);
   }
   return [packets, scene = embree_->scene] {
     int hits = 0;

@@ -53,7 +53,7 @@ class World {
   Tracer tracer_;
   Materials materials_;
   Moment moment_;
-  bool shadows_;
+  bool textured_, shadows_;
   double lowest_m_, highest_m_;
 };
 

@@ -23,6 +23,7 @@ class Waves final : public TerrainSurface {
   double curvature(const Box2d& box) const override;
 
   double shortest_wave_m() const;
+  const std::vector<Wave>& waves() const { return waves_; }
 
  private:
   std::vector<Wave> waves_;
