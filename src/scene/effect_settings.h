@@ -76,6 +76,13 @@ struct MovingCars : NamedEffect {
   double speed_mps = 9;  // fastest; the slowest drive half as fast
 };
 
+// --- what a surface throws back by the direction from which it is seen ---
+
+struct SpecularWater : NamedEffect {
+  double wind_mps = 0;         // roughens the water; 0: a mirror, nearly
+  double wind_from_deg = 270;  // from where the waves come, clockwise from north
+};
+
 // --- along the ray ---
 
 struct Haze : NamedEffect {
@@ -115,6 +122,7 @@ struct Effects {
   std::optional<SunMovement> sun_movement;
   std::optional<CloudShadows> cloud_shadows;
   std::optional<MovingCars> moving_cars;
+  std::optional<SpecularWater> specular_water;
   std::optional<Haze> haze;
   std::optional<Vignetting> vignetting;
   std::optional<ExposureDrift> exposure_drift;

@@ -13,9 +13,10 @@ namespace skysweep::scene {
 
 enum class RoofKind {
   flat,
-  gable,  // two planes that meet in a ridge along the longer side; around a courtyard the ridge runs around it
-  hip,    // four planes of one slope
-  shed,   // one plane, rising along the second side of the building
+  gable,      // two planes that meet in a ridge along the longer side; around a courtyard the ridge runs around it
+  hip,        // four planes of one slope
+  shed,       // one plane, rising along the second side of the building
+  saw_tooth,  // north lights: a row of sheds along the second side, each with a steep glazed face behind its ridge
 };
 
 // A single building, for scenes whose truth can be told by hand.
@@ -27,6 +28,8 @@ struct Building {
   RoofKind roof = RoofKind::flat;
   double eaves_z_m = 0;                // lowest place of a roof that is not flat
   std::optional<Vec2d> courtyard_m{};  // sides of a hole in the middle; flat and gable only
+  int teeth = 4;                       // of a saw-tooth roof
+  double steep_deg = 90;               // of its glazed faces, from level
 };
 
 // Blocks of buildings between streets, everywhere on the ground. The lower half of the keys is off at 0: a town that

@@ -87,12 +87,20 @@ TEST(Objects, every_table_is_read_and_told_again_in_json) {
 }
 
 TEST(Objects, wrong_values_are_refused_with_the_key_and_what_it_may_be) {
-  expect_refused(kHouse + "roof = \"dome\"\n", "must be one of \"flat\", \"gable\", \"hip\", \"shed\", not \"dome\"");
+  expect_refused(kHouse + "roof = \"dome\"\n", "\"flat\", \"gable\", \"hip\", \"shed\", \"saw_tooth\", not \"dome\"");
   expect_refused(kHouse + "roof = \"hip\"\n", "eaves_z_m of a building whose roof is not flat is missing");
   expect_refused(kHouse + "roof = \"hip\"\neaves_z_m = 7\n", "eaves_z_m must lie below roof_z_m");
   expect_refused(kHouse + "eaves_z_m = 5\n", "no effect on a flat roof");
   expect_refused(kHouse + "courtyard_m = [8, 2]\n", "courtyard_m must be smaller");
   expect_refused(kHouse + "roof = \"shed\"\neaves_z_m = 5\ncourtyard_m = [2, 2]\n", "needs a flat or gable roof");
+  const std::string teeth = kHouse + "roof = \"saw_tooth\"\neaves_z_m = 5\n";
+  expect_refused(teeth, "teeth (how many) of a building with a saw-tooth roof is missing");
+  expect_refused(teeth + "teeth = 0\n", "teeth must lie between 1 and 1000");
+  expect_refused(teeth + "teeth = 3\nsteep_deg = 20\n", "steep_deg must lie between 30 and 90");
+  expect_refused(teeth + "teeth = 30\nsteep_deg = 60\n", "leaves less than a tenth");
+  expect_refused(teeth + "teeth = 3\ncourtyard_m = [2, 2]\n", "needs a flat or gable roof");
+  expect_refused(kHouse + "teeth = 3\n", "no effect without roof = \"saw_tooth\"");
+  expect_refused(kHouse + "roof = \"shed\"\neaves_z_m = 5\nsteep_deg = 70\n", "no effect without roof");
   expect_refused("[[tree]]\nheight_m = 3\n", "position = [x, y] of a tree is missing");
   expect_refused("[[tree]]\nposition = [1, 1]\nshape = \"cube\"\n", "\"ellipsoid\", \"cone\", \"column\"");
   expect_refused("[[tree]]\nposition = [1, 1]\ncrown_m = 0\n", "crown_m must be above 0");
@@ -210,6 +218,17 @@ TEST(Objects, nothing_reaches_above_the_bound_on_which_flights_are_checked) {
     EXPECT_LE(solids_of(text).highest_m(), tallest_object_m(scene)) << text;
     EXPECT_GT(tallest_object_m(scene), 8) << text;
   }
+}
+
+TEST(Objects, saw_teeth_are_read_and_told_again_in_json) {
+  const Scene scene =
+      parse_scene(kHouse + "roof = \"saw_tooth\"\neaves_z_m = 5\nteeth = 3\nsteep_deg = 80\n" + kCamera, "s.toml");
+  EXPECT_EQ(scene.buildings[0].roof, RoofKind::saw_tooth);
+  EXPECT_EQ(scene.buildings[0].teeth, 3);
+  EXPECT_EQ(scene.buildings[0].steep_deg, 80);
+  const std::string json = scene_to_json(scene);
+  for (const char* word : {"\"saw_tooth\"", "\"teeth\"", "\"steep_deg\""})
+    EXPECT_NE(json.find(word), std::string::npos) << word;
 }
 
 // Geometry, Embree's trees and all: what a run holds besides photographs and truth rasters.

@@ -14,6 +14,7 @@
 #include "scene/effects/rolling_shutter.h"
 #include "scene/effects/sensor_noise.h"
 #include "scene/effects/sky_light.h"
+#include "scene/effects/specular_water.h"
 #include "scene/effects/sun_movement.h"
 #include "scene/effects/time_jitter.h"
 #include "scene/effects/vignetting.h"
@@ -57,6 +58,8 @@ void for_each_effect(AnyEffects& effects, Visitor&& visit) {
         Makes<CloudShadowsEffect>{});
   visit(EffectInfo{Id::moving_cars, "moving_cars", light, "cars that drive between exposures"}, effects.moving_cars,
         Makes<MovingCarsEffect>{});
+  visit(EffectInfo{Id::specular_water, "specular_water", surface, "mirror image and sun glitter on water"},
+        effects.specular_water, Makes<SpecularWaterEffect>{});
   visit(EffectInfo{Id::haze, "haze", air, "air takes light and adds its own"}, effects.haze, Makes<HazeEffect>{});
   visit(EffectInfo{Id::vignetting, "vignetting", image, "darker corners"}, effects.vignetting,
         Makes<VignettingEffect>{});

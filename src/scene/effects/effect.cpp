@@ -18,6 +18,7 @@ const char* to_string(Stage stage) {
     case Stage::metadata: return "metadata";
     case Stage::rays: return "rays";
     case Stage::light: return "light";
+    case Stage::surface: return "surface";
     case Stage::air: return "air";
     case Stage::image: return "image";
     case Stage::sensor: return "sensor";

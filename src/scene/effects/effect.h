@@ -5,6 +5,7 @@
 //   metadata  what the files say about a pose
 //   rays      where, when and through which part of the lens a sample looks
 //   light     sun and sky, where they meet a surface
+//   surface   what a surface throws back by the direction from which it is seen
 //   air       between surface and camera
 //   image     linear light of a row of pixels
 //   sensor    the same, after exposure
@@ -23,7 +24,7 @@ namespace skysweep::scene {
 
 class World;
 
-enum class Stage { metadata, rays, light, air, image, sensor };
+enum class Stage { metadata, rays, light, surface, air, image, sensor };
 const char* to_string(Stage stage);
 
 // In the order in which they act.
@@ -38,6 +39,7 @@ enum class EffectId {
   sun_movement,
   cloud_shadows,
   moving_cars,
+  specular_water,
   haze,
   vignetting,
   exposure_drift,
@@ -122,6 +124,14 @@ class LightEffect : public Effect {
   virtual void change_always(Moment&) const {}
   // What it does at the moment of a photograph.
   virtual void change(const Shot&, const World&, Moment&) const {}
+};
+
+class SurfaceEffect : public Effect {
+ public:
+  using Effect::Effect;
+  // Adds to light[i], which comes from hits[i] against rays[i], what depends on that direction. count <= kBatch.
+  virtual void shine(const Shot& shot, const World& world, const Moment& moment, const Ray* rays,
+                     const SurfacePoint* hits, int count, LinearRgb* light) const = 0;
 };
 
 class AirEffect : public Effect {

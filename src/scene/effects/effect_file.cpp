@@ -11,7 +11,7 @@ namespace {
 
 // Effects whose outcome depends on how fast the aircraft flies.
 bool time_matters(const Effects& e) {
-  return e.time_jitter || e.rolling_shutter || e.motion_blur || e.cloud_shadows || e.moving_cars;
+  return e.time_jitter || e.rolling_shutter || e.motion_blur || e.cloud_shadows || e.moving_cars || e.specular_water;
 }
 
 }  // namespace
@@ -27,10 +27,9 @@ Effects read_effects(const settings::TomlTable& table) {
   });
   read_dials(table, "effects", {{"speed_mps", &out.speed_mps, kAboveZero, 1000}});
   if (table.has("speed_mps") && !time_matters(out))
-    throw usage_error(
-        table.where("speed_mps") +
-        " has no effect: none of time_jitter, rolling_shutter, motion_blur, cloud_shadows and moving_cars "
-        "is named; remove it");
+    throw usage_error(table.where("speed_mps") +
+                      " has no effect: none of time_jitter, rolling_shutter, motion_blur, cloud_shadows, moving_cars "
+                      "and specular_water is named; remove it");
   return out;
 }
 

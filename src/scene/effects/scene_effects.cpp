@@ -16,10 +16,13 @@ struct Chain {
   std::vector<std::unique_ptr<MetadataEffect>> metadata;
   std::vector<std::unique_ptr<RayEffect>> rays;
   std::vector<std::unique_ptr<LightEffect>> light;
+  std::vector<std::unique_ptr<SurfaceEffect>> surface;
   std::vector<std::unique_ptr<AirEffect>> air;
   std::vector<std::unique_ptr<ImageEffect>> image;  // of the sensor too, as the last
 
-  bool touches_photographs() const { return !(rays.empty() && light.empty() && air.empty() && image.empty()); }
+  bool touches_photographs() const {
+    return !(rays.empty() && light.empty() && surface.empty() && air.empty() && image.empty());
+  }
 
   int rounds() const {
     int out = 1;
@@ -34,6 +37,7 @@ struct Chain {
   void add(std::unique_ptr<MetadataEffect> effect) { metadata.push_back(std::move(effect)); }
   void add(std::unique_ptr<RayEffect> effect) { rays.push_back(std::move(effect)); }
   void add(std::unique_ptr<LightEffect> effect) { light.push_back(std::move(effect)); }
+  void add(std::unique_ptr<SurfaceEffect> effect) { surface.push_back(std::move(effect)); }
   void add(std::unique_ptr<AirEffect> effect) { air.push_back(std::move(effect)); }
   void add(std::unique_ptr<ImageEffect> effect) { image.push_back(std::move(effect)); }
 
@@ -42,19 +46,28 @@ struct Chain {
     for (const auto& effect : metadata) visit(*effect);
     for (const auto& effect : rays) visit(*effect);
     for (const auto& effect : light) visit(*effect);
+    for (const auto& effect : surface) visit(*effect);
     for (const auto& effect : air) visit(*effect);
     for (const auto& effect : image) visit(*effect);
   }
 };
 
-// Times of the effects of rays and air are summed up for the row and told to their meters at its end.
+// Times of the effects of rays, surfaces and air are summed up for the row and told to their meters at its end.
 class ChainOnRow final : public RowEffects {
  public:
-  ChainOnRow(const Chain& chain, const Shot& shot, int row)
-      : chain_(chain), shot_(shot), row_(row), ray_times_(chain.rays.size()), air_times_(chain.air.size()) {}
+  ChainOnRow(const Chain& chain, const Shot& shot, const World& world, const Moment& moment, int row)
+      : chain_(chain),
+        shot_(shot),
+        world_(world),
+        moment_(moment),
+        row_(row),
+        ray_times_(chain.rays.size()),
+        surface_times_(chain.surface.size()),
+        air_times_(chain.air.size()) {}
 
   ~ChainOnRow() override {
     for (std::size_t i = 0; i < ray_times_.size(); ++i) chain_.rays[i]->meter().add(1, ray_times_[i]);
+    for (std::size_t i = 0; i < surface_times_.size(); ++i) chain_.surface[i]->meter().add(1, surface_times_[i]);
     for (std::size_t i = 0; i < air_times_.size(); ++i) chain_.air[i]->meter().add(1, air_times_[i]);
   }
 
@@ -66,6 +79,10 @@ class ChainOnRow final : public RowEffects {
   }
 
   void through_air(const Ray* rays, const SurfacePoint* hits, int count, LinearRgb* light) override {
+    for (std::size_t i = 0; i < surface_times_.size(); ++i) {
+      const Stopwatch stopwatch(surface_times_[i]);
+      chain_.surface[i]->shine(shot_, world_, moment_, rays, hits, count, light);
+    }
     for (std::size_t i = 0; i < air_times_.size(); ++i) {
       const Stopwatch stopwatch(air_times_[i]);
       chain_.air[i]->dim(rays, hits, count, light);
@@ -83,14 +100,16 @@ class ChainOnRow final : public RowEffects {
  private:
   const Chain& chain_;
   const Shot& shot_;
+  const World& world_;
+  const Moment& moment_;
   int row_;
-  std::vector<std::chrono::steady_clock::duration> ray_times_, air_times_;
+  std::vector<std::chrono::steady_clock::duration> ray_times_, surface_times_, air_times_;
 };
 
 class ChainOnPhotograph final : public PhotographEffects {
  public:
   ChainOnPhotograph(const Chain& chain, const Shot& shot, const World& world)
-      : chain_(chain), shot_(shot), moment_(world.moment()) {
+      : chain_(chain), shot_(shot), world_(world), moment_(world.moment()) {
     for (const auto& effect : chain.light) {
       const Stopwatch stopwatch(effect->meter(), 1);
       effect->change(shot, world, moment_);
@@ -102,12 +121,13 @@ class ChainOnPhotograph final : public PhotographEffects {
   Vec3d velocity_mps() const override { return shot_.velocity_mps; }
   const Moment& moment() const override { return moment_; }
   std::unique_ptr<RowEffects> begin_row(int row) const override {
-    return std::make_unique<ChainOnRow>(chain_, shot_, row);
+    return std::make_unique<ChainOnRow>(chain_, shot_, world_, moment_, row);
   }
 
  private:
   const Chain& chain_;
   const Shot& shot_;
+  const World& world_;
   Moment moment_;
 };
 

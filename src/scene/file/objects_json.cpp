@@ -13,6 +13,7 @@ const char* name(RoofKind roof) {
     case RoofKind::gable: return "gable";
     case RoofKind::hip: return "hip";
     case RoofKind::shed: return "shed";
+    case RoofKind::saw_tooth: return "saw_tooth";
     default: return "flat";
   }
 }
@@ -104,6 +105,10 @@ Json buildings_json(const std::vector<Building>& buildings) {
     if (b.roof != RoofKind::flat) {
       out.back()["roof"] = name(b.roof);
       out.back()["eaves_z_m"] = b.eaves_z_m;
+    }
+    if (b.roof == RoofKind::saw_tooth) {
+      out.back()["teeth"] = b.teeth;
+      out.back()["steep_deg"] = b.steep_deg;
     }
     if (b.courtyard_m) out.back()["courtyard_m"] = pair(*b.courtyard_m);
   }

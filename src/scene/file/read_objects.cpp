@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "scene/file/read_values.h"
@@ -13,8 +15,11 @@ namespace {
 template <typename T, std::size_t N>
 using Names = std::array<std::pair<const char*, T>, N>;
 
-constexpr Names<RoofKind, 4> kRoofs = {
-    {{"flat", RoofKind::flat}, {"gable", RoofKind::gable}, {"hip", RoofKind::hip}, {"shed", RoofKind::shed}}};
+constexpr Names<RoofKind, 5> kRoofs = {{{"flat", RoofKind::flat},
+                                        {"gable", RoofKind::gable},
+                                        {"hip", RoofKind::hip},
+                                        {"shed", RoofKind::shed},
+                                        {"saw_tooth", RoofKind::saw_tooth}}};
 constexpr Names<CrownShape, 3> kCrowns = {
     {{"ellipsoid", CrownShape::ellipsoid}, {"cone", CrownShape::cone}, {"column", CrownShape::column}}};
 
@@ -142,6 +147,23 @@ Town read_town(const TomlTable& table) {
   return out;
 }
 
+namespace {
+
+void read_teeth(const TomlTable& table, const std::string& file, Building& out) {
+  for (const char* key : {"teeth", "steep_deg"})
+    if (out.roof != RoofKind::saw_tooth && table.has(key))
+      throw usage_error(table.where(key) + " has no effect without roof = \"saw_tooth\": remove it");
+  if (out.roof != RoofKind::saw_tooth) return;
+  required(table.number("teeth"), "teeth (how many) of a building with a saw-tooth roof", file);
+  read(table, "teeth", out.teeth, 1, 1000);
+  read(table, "steep_deg", out.steep_deg, 30, 90);
+  const double width = out.size_m.y / out.teeth, height = out.roof_z_m - out.eaves_z_m;
+  if (out.steep_deg < 90 && height / std::tan(out.steep_deg * std::numbers::pi / 180) > 0.9 * width)
+    throw usage_error(table.where("steep_deg") + " leaves less than a tenth of each tooth for its flat face: raise it");
+}
+
+}  // namespace
+
 Building read_building(const TomlTable& table, const std::string& file) {
   Building out;
   out.center = required_place(table, "center", "building", file);
@@ -156,12 +178,13 @@ Building read_building(const TomlTable& table, const std::string& file) {
   } else if (table.has("eaves_z_m")) {
     throw usage_error(table.where("eaves_z_m") + " has no effect on a flat roof: remove it");
   }
+  read_teeth(table, file, out);
   if (table.has("courtyard_m")) {
     Vec2d courtyard;
     read_size(table, "courtyard_m", courtyard);
     if (!(courtyard.x < out.size_m.x && courtyard.y < out.size_m.y))
       throw usage_error(table.where("courtyard_m") + " must be smaller than size_m");
-    if (out.roof == RoofKind::hip || out.roof == RoofKind::shed)
+    if (out.roof != RoofKind::flat && out.roof != RoofKind::gable)
       throw usage_error(table.where("courtyard_m") + " needs a flat or gable roof");
     out.courtyard_m = courtyard;
   }

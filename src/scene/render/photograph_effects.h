@@ -32,6 +32,7 @@ class RowEffects {
  public:
   virtual ~RowEffects() = default;
   virtual void bend(SampleBatch& batch) = 0;
+  // From the surface to the camera: what it throws back by the direction of view, and what the air does.
   virtual void through_air(const Ray* rays, const SurfacePoint* hits, int count, LinearRgb* light) = 0;
   // Lens, exposure and sensor on a finished row of linear light; `gain` is the photograph's own exposure.
   virtual void develop(LinearRgb* row, int width, float gain) = 0;

@@ -12,7 +12,7 @@
 
 namespace skysweep::scene {
 
-enum class BodyKind { building, wall, bridge, mast, wire };
+enum class BodyKind { building, glazing, wall, bridge, mast, wire };  // glazing: of a saw-tooth roof
 
 // What a facet is part of. `place` is the frame of its colours: centre, axes, height of the eaves, seed.
 struct Body {

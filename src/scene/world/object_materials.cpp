@@ -12,7 +12,7 @@ namespace skysweep::scene {
 namespace {
 
 constexpr LinearRgb kConcrete{0.36f, 0.35f, 0.33f}, kMasonry{0.34f, 0.27f, 0.21f}, kRoadway{0.13f, 0.13f, 0.135f},
-    kSteel{0.40f, 0.41f, 0.42f}, kWire{0.10f, 0.10f, 0.11f}, kBark{0.10f, 0.075f, 0.05f};
+    kSteel{0.40f, 0.41f, 0.42f}, kWire{0.10f, 0.10f, 0.11f}, kPane{0.09f, 0.11f, 0.12f}, kBark{0.10f, 0.075f, 0.05f};
 // Of a broad crown, a fir and a poplar: CrownShape.
 constexpr std::array<LinearRgb, 3> kFoliage = {
     {{0.115f, 0.185f, 0.050f}, {0.055f, 0.110f, 0.050f}, {0.095f, 0.165f, 0.060f}}};
@@ -44,6 +44,13 @@ LinearRgb Materials::facet(const SurfacePoint& point) const {
     return std::max(0.1f, 1 + contrast_ * strength * (fine + middle + 0.6f * stain)) * color;
   };
   switch (body.kind) {
+    case BodyKind::glazing: {  // panes between bars; the same on every tooth, which share their seed
+      const double pane = own.x / 1.2;
+      const int i = floor_int(pane);
+      if (pane - i < 0.08) return kSteel;
+      const float tone = 0.35f * lattice_value(i, floor_int(own.y / 1.8), body.place.seed + 82);
+      return (1 + contrast_ * tone) * kPane;
+    }
     case BodyKind::bridge: {
       if (point.face != Face::top) return rough(kConcrete, 0.15f);
       const Vec2d v = body.place.axis_v();

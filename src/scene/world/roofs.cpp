@@ -2,6 +2,8 @@
 #include "scene/world/roofs.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/check.h"
@@ -12,8 +14,10 @@ namespace {
 // Puts faces up in the frame of one building.
 class Builder {
  public:
-  Builder(Facets& facets, const SolidBox& walls)
-      : facets_(facets), walls_(walls), body_(facets.add_body({BodyKind::building, walls})) {}
+  Builder(Facets& facets, const SolidBox& walls) : Builder(facets, walls, {BodyKind::building, walls}) {}
+  // Of a part of it that has looks of its own.
+  Builder(Facets& facets, const SolidBox& walls, const Body& part)
+      : facets_(facets), walls_(walls), body_(facets.add_body(part)) {}
 
   void face(std::initializer_list<Vec3d> local) {
     std::vector<Vec3d> corners;
@@ -59,6 +63,31 @@ void add_shed(Builder& build, double a, double b, double low, double eaves, doub
   build.face({{-a, b, low}, {-a, -b, low}, {-a, -b, eaves}, {-a, b, ridge}});
 }
 
+// Each tooth is a body of its own, with the same seed: so they all look alike.
+void add_saw_teeth(Facets& facets, const RoofedBuilding& building) {
+  const double a = building.walls.half.x, b = building.walls.half.y;
+  const double low = building.walls.z_low, eaves = building.walls.z_high, ridge = building.ridge_z;
+  const double width = 2 * b / building.teeth;
+  const double steep_run =
+      building.steep_deg < 90 ? (ridge - eaves) / std::tan(building.steep_deg * std::numbers::pi / 180) : 0;
+  SKY_CHECK(building.teeth > 0 && steep_run < width);
+  const auto valley = [&](int k) { return k == building.teeth ? b : -b + k * width; };
+  for (int k = 0; k < building.teeth; ++k) {
+    const double from = valley(k), to = valley(k + 1), top = to - steep_run;
+    SolidBox place = building.walls;
+    place.center = building.walls.from_local({0, 0.5 * (from + to)});
+    place.half.y = 0.5 * (to - from);
+    Builder build(facets, building.walls, {BodyKind::building, place});
+    build.face({{-a, from, eaves}, {a, from, eaves}, {a, top, ridge}, {-a, top, ridge}});
+    build.face({{a, from, low}, {a, to, low}, {a, to, eaves}, {a, top, ridge}, {a, from, eaves}});
+    build.face({{-a, to, low}, {-a, from, low}, {-a, from, eaves}, {-a, top, ridge}, {-a, to, eaves}});
+    if (k == 0) build.face({{-a, from, low}, {a, from, low}, {a, from, eaves}, {-a, from, eaves}});
+    if (k + 1 == building.teeth) build.face({{a, to, low}, {-a, to, low}, {-a, to, eaves}, {a, to, eaves}});
+    Builder glazing(facets, building.walls, {BodyKind::glazing, place});
+    glazing.face({{a, to, eaves}, {-a, to, eaves}, {-a, top, ridge}, {a, top, ridge}});
+  }
+}
+
 // Four wings around a courtyard, mitred at the corners.
 void add_ring(Builder& build, Vec2d outer, Vec2d inner, double low, double eaves, double ridge) {
   const Vec2d middle = 0.5 * (outer + inner);
@@ -97,6 +126,10 @@ void add_building(Facets& facets, const RoofedBuilding& building) {
     return;
   }
   SKY_CHECK(has_ridge);  // a level roof without a hole is a box
+  if (building.roof == RoofKind::saw_tooth) {
+    add_saw_teeth(facets, building);
+    return;
+  }
   const SolidBox walls = building.roof == RoofKind::shed ? building.walls : along_longer_side(building.walls);
   Builder build(facets, walls);
   if (building.roof == RoofKind::gable) add_gable(build, walls.half.x, walls.half.y, low, eaves, ridge);

@@ -33,7 +33,7 @@ void add_buildings(const Scene& scene, const Ground& ground, Solids& solids) {
     std::optional<Vec2d> courtyard;
     if (building.courtyard_m) courtyard = 0.5 * *building.courtyard_m;
     if (!level && box.seed % 3 == 0) ++box.seed;  // gravel would not stay on it: tiles
-    add_building(solids.facets, {box, building.roof, building.roof_z_m, courtyard});
+    add_building(solids.facets, {box, building.roof, building.roof_z_m, courtyard, building.teeth, building.steep_deg});
   }
 }
 

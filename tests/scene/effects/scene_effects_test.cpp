@@ -16,7 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kTown = "area_m = [16, 4]\n[town]\nblock_m = 8\nstreet_m = 12\nmax_height_m = 4.5\n";
+// Streets, flooded ankle-deep.
+const std::string kTown =
+    "area_m = [16, 4]\n[town]\nblock_m = 8\nstreet_m = 12\nmax_height_m = 4.5\n[terrain]\nwater_level_m = 0.1\n";
 
 // All effects there are, with their tables.
 const std::vector<std::pair<std::string, std::string>> kTables = {
@@ -30,6 +32,7 @@ const std::vector<std::pair<std::string, std::string>> kTables = {
     {"sun_movement", "hours = 1"},
     {"cloud_shadows", "cover = 0.5\nsize_m = 2"},
     {"moving_cars", "per_100m = 10"},
+    {"specular_water", "wind_mps = 3"},
     {"haze", "visibility_m = 50"},
     {"vignetting", "strength = 1"},
     {"exposure_drift", "stops = 0.3"},
