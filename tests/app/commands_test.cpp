@@ -124,5 +124,38 @@ TEST_F(Commands, simulate_refuses_a_scene_with_an_unknown_key) {
   EXPECT_FALSE(fs::exists(folder / "simulated"));
 }
 
+// One photograph of bare ground, and whatever else the scene shall have.
+std::string tiny_scene(const std::string& more) {
+  return "area_m = [4, 3]\n[camera]\nwidth_px = 64\nheight_px = 48\nfocal_px = 60\n"
+         "[flight]\nbeyond_area_m = -2\n[truth]\ntie_points = 0\n" +
+         more;
+}
+
+TEST_F(Commands, simulate_explains_which_effects_ran_and_why) {
+  put_bytes(folder / "scene.toml", tiny_scene("[effects.haze]\nvisibility_m = 900\n"));
+  const Outcome plain = skysweep({"simulate", folder / "scene.toml", "-o", folder / "simulated"});
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_EQ(plain.out.find("haze"), std::string::npos);
+  const Outcome explained = skysweep({"simulate", folder / "scene.toml", "-o", folder / "simulated", "--explain"});
+  EXPECT_EQ(explained.exit_code, 0) << explained.err;
+  const auto line_of = [&](const std::string& effect) {
+    const std::size_t begin = explained.out.find("  " + effect + " ");
+    return begin == std::string::npos ? "" : explained.out.substr(begin, explained.out.find('\n', begin) - begin);
+  };
+  EXPECT_TRUE(says(line_of("haze"), {"air", " 48 ", "scene.toml:10: effects.haze"}));  // a call for each row
+  EXPECT_TRUE(says(line_of("vignetting"), {"image", " - ", "not named: nothing runs"}));
+  EXPECT_TRUE(says(explained.out, {"4 rays a pixel"}));
+}
+
+TEST_F(Commands, simulate_tells_the_time_left_from_the_first_photograph_on) {
+  put_bytes(folder / "scene.toml", tiny_scene(""));
+  const Outcome outcome = skysweep({"simulate", folder / "scene.toml", "-o", folder / "simulated"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::size_t first = outcome.out.find("photographs and truth 1/2, ");
+  ASSERT_NE(first, std::string::npos) << outcome.out;
+  // A clock that is started after the first photograph gives absurd rates: photographs take more than 0.1 ms.
+  EXPECT_LT(std::stod(outcome.out.substr(first + 27)), 1e4) << outcome.out;
+}
+
 }  // namespace
 }  // namespace skysweep::app_test

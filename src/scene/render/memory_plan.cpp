@@ -21,8 +21,8 @@ std::uint64_t planned_bytes(const Scene& scene, const TruthGrid& grid) {
   // Two in memory, one copy for the encoder, and as much again for what it writes.
   const std::uint64_t of_photograph = 4 * (light ? sizeof(LinearRgb) : sizeof(Rgb8));
   const std::uint64_t of_depth = scene.truth.depth ? 4 * sizeof(float) : 0;
-  // The layers, and one of them once more while it is written.
-  const std::uint64_t of_truth = 2 * sizeof(float) + sizeof(Rgba8) + sizeof(std::uint8_t);
+  // The layers (surface, ground, colour, views, classes), and one of them once more while it is written.
+  const std::uint64_t of_truth = 2 * sizeof(float) + sizeof(Rgba8) + 2 * sizeof(std::uint8_t) + sizeof(float);
   return kLibraries + std::max(pixels * (of_photograph + of_depth), cells * of_truth);
 }
 

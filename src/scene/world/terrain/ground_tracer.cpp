@@ -10,6 +10,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "scene/world/idle_rays.h"
 #include "scene/world/terrain/mesh_lines.h"
 
 namespace skysweep::scene {
@@ -235,6 +236,7 @@ void GroundTracer::first_hits(const Ray* rays, const bool* active, int count, do
   double from[kRayBatch], to[kRayBatch];
   alignas(64) int valid[kRayBatch] = {};
   RTCRayHit16 packet;
+  make_idle(packet.ray);
   bool any = false;
   for (int i = 0; i < count; ++i) {
     hits[i].reset();
