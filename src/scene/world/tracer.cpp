@@ -11,6 +11,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "scene/world/idle_rays.h"
 #include "scene/world/rolling_ground.h"
 
 namespace skysweep::scene {
@@ -303,6 +304,7 @@ void Tracer::blocked(const Ray* rays, const bool* active, int count, bool endles
   SKY_CHECK_LE(count, kBatch);
   alignas(64) int valid[kBatch] = {};
   RTCRay16 packet;
+  make_idle(packet);
   bool any = false;
   for (int i = 0; i < count; ++i) {
     out[i] = false;
