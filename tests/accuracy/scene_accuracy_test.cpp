@@ -10,7 +10,10 @@
 #include "export/mosaic.h"
 #include "pipeline/session.h"
 #include "pipeline/tbb_executor.h"
+#include "raster/class_names.h"
 #include "raster/temp_folder.h"
+#include "report/class_accuracy.h"
+#include "report/evaluation.h"
 #include "report/height_accuracy.h"
 #include "report/registration.h"
 #include "scene/scene_file.h"
@@ -39,6 +42,17 @@ scene::Simulation simulated(const std::string& name, const fs::path& folder) {
   return scene::simulate(scene::read_scene(scene_file(name)), folder, executor);
 }
 
+// Of steps of more than a metre within ten GSD of buildings; nothing without buildings.
+void add_building_edges(const report::HeightDifferences& cells, const report::ClassMap& classes, double gsd_m,
+                        std::map<std::string, double>& out) {
+  const Array2d<std::uint8_t> region = report::building_region(classes, 10 * gsd_m, cells.grid.cell_m);
+  if (region.empty()) return;
+  const report::EdgeAccuracy edges = report::edge_accuracy(cells, 1, gsd_m, &region);
+  out["edge_f_1_gsd"] = edges.scores[0].f_score();
+  out["edge_f_2_gsd"] = edges.scores[1].f_score();
+  out["edge_displacement_gsd"] = std::abs(edges.steps.median_m) / gsd_m;
+}
+
 // All figures a row of expected.csv may name, of the flight in folder / "flight" mapped with a preset.
 std::map<std::string, double> figures(const scene::Simulation& flight, const std::string& preset,
                                       const fs::path& folder) {
@@ -61,21 +75,27 @@ std::map<std::string, double> figures(const scene::Simulation& flight, const std
   const fs::path truth = folder / "flight" / "truth";
   raster::Raster<std::uint8_t> seen = raster::read_class_raster(truth / "views.tif");
   for (std::uint8_t& views : seen.values) views = views >= kViewsThatMustDo;
-  const report::HeightAccuracy heights =
-      report::compare_surfaces(raster::read_float_raster(paths.mosaic("dsm")),
-                               raster::read_float_raster(truth / "dsm.tif"), &seen, {flight.gsd_m});
+  const report::HeightDifferences cells = report::height_differences(raster::read_float_raster(paths.mosaic("dsm")),
+                                                                     raster::read_float_raster(truth / "dsm.tif"));
+  const report::HeightAccuracy heights = report::accuracy_of(cells, &seen.values, {flight.gsd_m});
   report::RegistrationOptions blocks;
   blocks.block_cells = 32;  // small enough to fit between the holes that streets and walls leave
   const report::Registration ortho = report::compare_orthophotos(
       raster::read_color_raster(paths.mosaic("ortho")), raster::read_color_raster(truth / "ortho.tif"), blocks);
   const report::HeightErrors& all = heights.overall;
-  return {{"completeness", all.valid_share()},
-          {"median_absolute_gsd", all.median_absolute_m / flight.gsd_m},
-          {"le90_gsd", all.le90_m / flight.gsd_m},
-          {"within_2_gsd_where_3_views", heights.masked->within_of_all[1]},
-          {"bias_plane_steps", std::abs(all.median_m) / summary.settings.lattice.dz_m},
-          {"ortho_shift_cells", ortho.median_shift_cells},
-          {"ortho_blocks_used", ortho.used_share()}};
+  std::map<std::string, double> out = {{"completeness", all.valid_share()},
+                                       {"median_absolute_gsd", all.median_absolute_m / flight.gsd_m},
+                                       {"le90_gsd", all.le90_m / flight.gsd_m},
+                                       {"within_2_gsd_where_3_views", heights.masked->within_of_all[1]},
+                                       {"bias_plane_steps", std::abs(all.median_m) / summary.settings.lattice.dz_m},
+                                       {"ortho_shift_cells", ortho.median_shift_cells},
+                                       {"ortho_blocks_used", ortho.used_share()}};
+  const report::ClassMap classes{raster::read_class_raster(truth / "classes.tif").values,
+                                 raster::read_class_names(truth / "classes.tif")};
+  for (const report::ClassErrors& one : report::accuracy_by_class(cells, classes, flight.gsd_m))
+    out[one.name + "_within_2_gsd"] = one.errors.within_of_all[1];
+  add_building_edges(cells, classes, flight.gsd_m, out);
+  return out;
 }
 
 // A scene with everything that is stored about it.
