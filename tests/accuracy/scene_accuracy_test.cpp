@@ -2,6 +2,7 @@
 // Scenes with exact truth, mapped as a user would, against the figures in expected.csv.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <ostream>
@@ -92,8 +93,11 @@ std::map<std::string, double> figures(const scene::Simulation& flight, const std
                                        {"ortho_blocks_used", ortho.used_share()}};
   const report::ClassMap classes{raster::read_class_raster(truth / "classes.tif").values,
                                  raster::read_class_names(truth / "classes.tif")};
-  for (const report::ClassErrors& one : report::accuracy_by_class(cells, classes, flight.gsd_m))
-    out[one.name + "_within_2_gsd"] = one.errors.within_of_all[1];
+  for (const report::ClassErrors& one : report::accuracy_by_class(cells, classes, flight.gsd_m)) {
+    std::string name = one.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    out[name + "_within_2_gsd"] = one.errors.within_of_all[1];
+  }
   add_building_edges(cells, classes, flight.gsd_m, out);
   return out;
 }
