@@ -99,7 +99,7 @@ DIALS = [
     of_effect("sun_movement", "hours", "h", (0.5, 1.5, 4), "light"),
     of_effect("cloud_shadows", "cover", "", (0.2, 0.4, 0.6), "light", size_m=20),
     of_effect("moving_cars", "per_100m", "/ 100 m", (2, 6, 12), "light"),
-    of_effect("specular_water", "wind_mps", "m/s", (8, 4, 1), "light", given={"terrain.water_level_m": -0.2}),
+    of_effect("specular_water", "wind_mps", "m/s", (1, 4, 8), "light", given={"terrain.water_level_m": -0.2}),
 
     of_effect("haze", "visibility_m", "m", (3000, 500, 100), "image"),
     of_effect("vignetting", "strength", "", (1, 2, 4), "image"),

@@ -112,6 +112,14 @@ double to_plane(const Ray& ray, Vec3d normal, Vec3d point) {
   return dot(normal, point - ray.origin) / dot(normal, ray.direction);
 }
 
+// The same where Embree has met that plane after `met`: that distance itself if the plane's is not within a hand of it.
+// A ray along the plane divides by nothing there, and its place is as near the plane as single precision goes.
+double to_plane_near(const Ray& ray, Vec3d normal, Vec3d point, float met) {
+  constexpr double kHand_m = 0.1;
+  const double there = to_plane(ray, normal, point), about = static_cast<double>(met);
+  return std::abs(there - about) * norm(ray.direction) <= kHand_m ? there : about;
+}
+
 // All 16 lanes are set, so that a packet may be copied.
 void prepare(const RayLanes& rays, int count, RTCRayHit16& packet, int* valid) {
   for (int i = 0; i < Tracer::kBatch; ++i) {
@@ -205,22 +213,22 @@ void Tracer::attach_trees() {
   }
 }
 
-void Tracer::hit_facet(const Ray& ray, SurfacePoint& hit) const {
+void Tracer::hit_facet(const Ray& ray, float met, SurfacePoint& hit) const {
   const Facet& facet = solids_.facets.all[static_cast<std::size_t>(hit.facet)];
   hit.face = facet.normal.z > 0 ? Face::top : Face::wall;
   hit.normal = facet.normal;
-  hit.position = ray.origin + to_plane(ray, facet.normal, facet.corner[0]) * ray.direction;
+  hit.position = ray.origin + to_plane_near(ray, facet.normal, facet.corner[0], met) * ray.direction;
   if (facet.normal.z == 1) hit.position.z = facet.corner[0].z;
 }
 
 // In the frame of the prototype, where the leaf is known in double: the way along the ray is the same in both frames.
-void Tracer::hit_leaf(const Ray& ray, SurfacePoint& hit) const {
+void Tracer::hit_leaf(const Ray& ray, float met, SurfacePoint& hit) const {
   const TreeInstance& tree = solids_.trees[static_cast<std::size_t>(hit.tree)];
   const Leaf& leaf = prototypes_[static_cast<std::size_t>(tree.prototype)][static_cast<std::size_t>(hit.leaf)];
   const Vec3d s = leaf.corner[1] - leaf.corner[0], t = leaf.corner[3] - leaf.corner[0];
   const Ray own{tree.point_to_prototype(ray.origin), tree.direction_to_prototype(ray.direction)};
   hit.face = Face::leaf;
-  hit.position = ray.origin + to_plane(own, cross(s, t), leaf.corner[0]) * ray.direction;
+  hit.position = ray.origin + to_plane_near(own, cross(s, t), leaf.corner[0], met) * ray.direction;
   hit.normal = normalized(cross(tree.direction_to_scene(s), tree.direction_to_scene(t)));
   if (dot(hit.normal, ray.direction) > 0) hit.normal = -hit.normal;
 }
@@ -245,10 +253,10 @@ void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
     if (packet.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID) {
       hit.tree = static_cast<int>(packet.hit.instID[0][i] - kFirstTreeId);
       hit.leaf = static_cast<int>(packet.hit.primID[i]);
-      hit_leaf(ray, hit);
+      hit_leaf(ray, packet.ray.tfar[i], hit);
     } else if (packet.hit.geomID[i] == kFacetsId) {
       hit.facet = static_cast<int>(packet.hit.primID[i]);
-      hit_facet(ray, hit);
+      hit_facet(ray, packet.ray.tfar[i], hit);
     } else if (packet.hit.geomID[i] == kGroundId) {
       const auto at = static_cast<std::size_t>(i);
       hit.face = Face::ground;
@@ -267,7 +275,7 @@ void Tracer::first_hits(const Ray* rays, int count, SurfacePoint* hits) const {
         hit.normal = {side.normal.x, side.normal.y, 0};
         on_face = {p.x, p.y, box.z_high};
       }
-      hit.position = ray.origin + to_plane(ray, hit.normal, on_face) * ray.direction;
+      hit.position = ray.origin + to_plane_near(ray, hit.normal, on_face, packet.ray.tfar[i]) * ray.direction;
       if (face == 0) hit.position.z = box.z_high;
     }
   }

@@ -55,8 +55,9 @@ class Tracer {
   struct Embree;
   // Puts the ground (or water) into the place of what lies behind it.
   void meet_shaped_ground(const Ray* rays, int count, SurfacePoint* hits) const;
-  void hit_facet(const Ray& ray, SurfacePoint& hit) const;
-  void hit_leaf(const Ray& ray, SurfacePoint& hit) const;
+  // `met`: how far along the ray, as Embree found.
+  void hit_facet(const Ray& ray, float met, SurfacePoint& hit) const;
+  void hit_leaf(const Ray& ray, float met, SurfacePoint& hit) const;
   void attach_trees();
 
   const Ground& ground_;
