@@ -93,6 +93,35 @@ TEST(Tracer, a_roof_is_exactly_at_its_height_and_walls_are_exactly_in_their_plan
 }
 
 // Embree holds oneTBB to the number of threads that a device asks for, in the whole process.
+// A gable and a ray straight down along it are parallel in double and meet in single precision.
+TEST(Tracer, a_gable_met_edge_on_is_hit_at_a_finite_place) {
+  const Ground ground({}, 1);
+  Solids solids;
+  const Vec2d along = heading_axis(17);
+  const int body = solids.facets.add_body({BodyKind::wall, turned_box()});
+  constexpr double kApart_m = 5, kLength_m = 10, kHeight_m = 6;
+  const auto foot = [&](int wall) { return Vec2d{621.3, 402.9 + kApart_m * wall}; };
+  constexpr int kWalls = 15;
+  for (int wall = 0; wall < kWalls; ++wall) {
+    const Vec2d p = foot(wall), q = p + kLength_m * along;
+    const Vec2d ridge = p + 0.5 * kLength_m * along;
+    solids.facets.add_polygon(
+        {{p.x, p.y, -0.7}, {q.x, q.y, -0.7}, {q.x, q.y, 4.1}, {ridge.x, ridge.y, kHeight_m}, {p.x, p.y, 4.1}}, body,
+        wall);
+  }
+  const Tracer tracer(ground, solids, {{500, 300}, {700, 500}});
+  Random random(5);
+  int hits = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Vec2d p = foot(i % kWalls) + random.uniform(0, kLength_m) * along;
+    const SurfacePoint hit = trace(tracer, {{p.x, p.y, 44}, {0, 0, -1}});
+    ASSERT_TRUE(is_finite(hit.position)) << i;
+    ASSERT_TRUE(hit.position.z > -0.71 && hit.position.z < kHeight_m + 0.01) << hit.position.z;
+    hits += hit.face == Face::wall;
+  }
+  EXPECT_GT(hits, 0);
+}
+
 TEST(Tracer, leaves_all_threads_of_the_machine_to_others) {
   const auto allowed = [] { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); };
   const std::size_t before = allowed();

@@ -81,32 +81,6 @@ TEST(Tracer, a_leaf_is_hit_exactly_in_the_plane_of_its_instance) {
   EXPECT_GT(hits, 5000);
 }
 
-TEST(Tracer, a_leaf_met_edge_on_is_hit_at_a_finite_place) {
-  const Grove grove;
-  const Tracer tracer(grove.ground, grove.solids, kExtent);
-  std::vector<std::vector<Leaf>> prototypes;
-  for (const TreeInstance& tree : grove.solids.trees) prototypes.push_back(make_tree(tree.prototype));
-  Random random(9);
-  int hits = 0;
-  for (int i = 0; i < 30000; ++i) {
-    const TreeInstance& tree = grove.solids.trees[static_cast<std::size_t>(i % 3)];
-    const std::vector<Leaf>& leaves = prototypes[static_cast<std::size_t>(i % 3)];
-    // Straight down along the upright faces of a trunk.
-    const Leaf& face = leaves[static_cast<std::size_t>(i % 4)];
-    const double t = random.uniform(0, 1);
-    const Vec3d on_face = (1 - t) * face.corner[0] + t * face.corner[1];
-    const Vec3d place = tree.foot + tree.direction_to_scene(on_face);
-    const Ray ray{{place.x, place.y, 40}, {0, 0, -1}};
-    SurfacePoint hit;
-    tracer.first_hits(&ray, 1, &hit);
-    ASSERT_TRUE(is_finite(hit.position) && is_finite(hit.normal)) << i;
-    ASSERT_GE(hit.position.z, -1);
-    ASSERT_LE(hit.position.z, 20);
-    hits += hit.face == Face::leaf;
-  }
-  EXPECT_GT(hits, 1000);
-}
-
 TEST(Tracer, rays_pass_through_the_gaps_of_a_crown) {
   const Grove grove;
   const Tracer tracer(grove.ground, grove.solids, kExtent);
