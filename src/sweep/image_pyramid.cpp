@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sweep/local_normalization.h"
+#include "sweep/similar_normalization.h"
 
 namespace skysweep::sweep {
 namespace {
@@ -38,8 +39,11 @@ Array2d<T> halve(const Array2d<T>& fine, Combine combine) {
 
 constexpr unsigned rounded_mean(unsigned a, unsigned b, unsigned c, unsigned d) { return (a + b + c + d + 2) / 4; }
 
-LuminanceLevel prepared(Array2d<std::uint16_t> inner, int normalization_radius_px) {
-  if (normalization_radius_px > 0) normalize_locally(inner, normalization_radius_px);
+LuminanceLevel prepared(Array2d<std::uint16_t> inner, Normalization normalization) {
+  if (normalization.tolerance > 0)
+    normalize_similar(inner, normalization.radius_px, normalization.tolerance * static_cast<int>(kLuminanceScale));
+  else if (normalization.radius_px > 0)
+    normalize_locally(inner, normalization.radius_px);
   LuminanceLevel level{inner.width(), inner.height(), inner.width() + 2, {}};
   // One element more than the last pixel pair needs, so that pairs can be read as one 32-bit word anywhere.
   level.values.resize(static_cast<std::size_t>(level.stride) * (level.height + 2) + 1);
@@ -68,15 +72,15 @@ double mix(double a, double b, double weight) { return a + weight * (b - a); }
 
 }  // namespace
 
-ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px) {
+ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization) {
   SKY_CHECK(!photograph.empty());
   Array2d<std::uint16_t> grey = luminance_of(photograph);
   color_.push_back(std::move(photograph));
-  luminance_.push_back(prepared(grey, normalization_radius_px));
+  luminance_.push_back(prepared(grey, normalization));
   while (grey.width() > 1 || grey.height() > 1) {
     grey = halve(grey,
                  [](auto a, auto b, auto c, auto d) { return static_cast<std::uint16_t>(rounded_mean(a, b, c, d)); });
-    luminance_.push_back(prepared(grey, normalization_radius_px));
+    luminance_.push_back(prepared(grey, normalization));
     color_.push_back(halve(color_.back(), [](Rgb8 a, Rgb8 b, Rgb8 c, Rgb8 d) {
       return Rgb8{static_cast<std::uint8_t>(rounded_mean(a.r, b.r, c.r, d.r)),
                   static_cast<std::uint8_t>(rounded_mean(a.g, b.g, c.g, d.g)),

@@ -11,6 +11,7 @@
 #include "core/array2d.h"
 #include "core/color.h"
 #include "core/vec.h"
+#include "sweep/normalization.h"
 
 namespace skysweep::sweep {
 
@@ -32,9 +33,8 @@ constexpr double kLuminanceScale = 256;  // stored units per grey level
 
 class ImagePyramid {
  public:
-  // `normalization_radius_px`: see SweepOptions; each level is normalised by itself, in its own pixels. 0 keeps the
-  // luminance as photographed.
-  explicit ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px = 0);
+  // Each level is normalised by itself, in its own pixels.
+  explicit ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization = {});
 
   int width() const { return color_[0].width(); }
   int height() const { return color_[0].height(); }

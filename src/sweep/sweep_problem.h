@@ -62,9 +62,11 @@ struct SweepProblem {
   Array2d<PlaneSet> block_planes;
   std::vector<View> views;  // their order decides ties: keep it independent of arrival order
   VisibilityLimit visibility;
-  // Where a smooth surface is expected in each cell, in planes: smoothing counts steps from the nearest. NaN: nothing is
-  // expected there; empty: nowhere.
+  // Where a smooth surface is expected in each cell, in planes: smoothing counts steps from the nearest. NaN: nothing
+  // is expected there; empty: nowhere.
   Array2d<float> expected_plane;
+  // The place as it looks from above (guide_image.h): steps are cheaper at its edges. Empty: nothing is known.
+  Array2d<std::uint8_t> guide;
   SweepOptions options;
 
   // All blocks search the same planes.

@@ -78,7 +78,7 @@ int dump_tile(const SweepOptions& options) {
   const std::vector<index::ImageRecord> images = index::Catalogue(paths.catalogue(), settings.crs_wkt).images();
   const pipeline::Coverage coverage(images, settings);
   pipeline::PhotoCache photos(options.images ? std::filesystem::path(*options.images) : settings.images,
-                              kPhotoCacheBytes, settings.configuration.sweep.normalization_radius_px);
+                              kPhotoCacheBytes, settings.configuration.sweep.normalization());
   pipeline::TbbExecutor executor(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
 
   const pipeline::PreparedTile tile =
