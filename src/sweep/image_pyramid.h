@@ -5,6 +5,7 @@
 // built.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,22 @@
 #include "core/vec.h"
 
 namespace skysweep::sweep {
+
+constexpr double kLuminanceScale = 256;  // stored units per grey level
+
+// Index of the pixel left of (above) a sampling position, and the weight of its right (lower) neighbour.
+struct Tap {
+  int index;
+  double weight;
+};
+inline Tap tap_at(double position, int size) {
+  const double shifted = position - 0.5;
+  int floor = static_cast<int>(shifted);
+  floor -= shifted < floor;
+  return {std::clamp(floor, -1, size - 1), shifted - floor};
+}
+
+constexpr double mix(double a, double b, double weight) { return a + weight * (b - a); }
 
 // Luminance in units of 1/256 grey level (Y = 0.212671 R + 0.715160 G + 0.072169 B), with a border
 // of one repeated pixel on every side, so that bilinear sampling anywhere on the photograph reads inside the array.
@@ -26,9 +43,15 @@ struct LuminanceLevel {
   std::uint16_t at(int column, int row) const {
     return values[static_cast<std::size_t>(row + 1) * stride + (column + 1)];
   }
-};
 
-constexpr double kLuminanceScale = 256;  // stored units per grey level
+  // Bilinear, grey levels, double precision. `position` in this level's pixels, on the image.
+  double sample(Vec2d position) const {
+    const Tap x = tap_at(position.x, width), y = tap_at(position.y, height);
+    const std::uint16_t* upper = values.data() + static_cast<std::size_t>(y.index + 1) * stride + (x.index + 1);
+    const std::uint16_t* lower = upper + stride;
+    return mix(mix(upper[0], upper[1], x.weight), mix(lower[0], lower[1], x.weight), y.weight) / kLuminanceScale;
+  }
+};
 
 class ImagePyramid {
  public:
