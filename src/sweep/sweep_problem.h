@@ -41,6 +41,7 @@ constexpr int blocks_across(int cells) { return (cells + kBlockCells - 1) / kBlo
 
 struct SweepProblem {
   Grid grid;
+  int collar_cells = 0;  // along the grid's border: swept for what they hide and steady, and not coloured
   double dz_m = 1;
   // Of each block, (0, 0) the north-west one; blocks without planes leave their cells without height.
   Array2d<PlaneSet> block_planes;

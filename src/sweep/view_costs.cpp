@@ -51,23 +51,34 @@ double ViewSamples::difference(int i, int k) const {
   return sum / levels;
 }
 
-ViewSamples sample_views(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use) {
+ViewSamples views_showing(const SweepProblem& problem, Vec3d point) {
   ViewSamples out;
-  const SweepOptions& options = problem.options;
-  out.levels = options.window_level_max - options.window_level_min + 1;
   for (int v = 0; v < static_cast<int>(problem.views.size()); ++v) {
-    if (use && !(*use)[v]) continue;
-    const View& view = problem.views[v];
-    const std::optional<Vec2d> pixel = view.camera.project(point);
-    if (!pixel || !view.camera.shows(*pixel)) continue;
+    const camera::Camera& camera = problem.views[v].camera;
+    const std::optional<Vec2d> pixel = camera.project(point);
+    if (!pixel || !camera.shows(*pixel)) continue;
     out.view[out.count] = v;
     out.pixel[out.count] = *pixel;
-    for (int level = 0; level < out.levels; ++level)
-      out.luminance[level][out.count] =
-          view.image->sample_luminance(*pixel, sampling_level(view, options.window_level_min + level));
     ++out.count;
   }
   return out;
+}
+
+void sample_windows(const SweepProblem& problem, ViewSamples& samples) {
+  const SweepOptions& options = problem.options;
+  samples.levels = options.window_level_max - options.window_level_min + 1;
+  for (int k = 0; k < samples.count; ++k) {
+    const View& view = problem.views[samples.view[k]];
+    for (int level = 0; level < samples.levels; ++level)
+      samples.luminance[level][k] =
+          view.image->sample_luminance(samples.pixel[k], sampling_level(view, options.window_level_min + level));
+  }
+}
+
+ViewSamples sample_views(const SweepProblem& problem, Vec3d point) {
+  ViewSamples samples = views_showing(problem, point);
+  sample_windows(problem, samples);
+  return samples;
 }
 
 std::array<double, kMaxViews> view_costs(const ViewSamples& samples) {

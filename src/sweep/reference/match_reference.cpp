@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double cost_at(const SweepProblem& problem, int column, int row, int k) {
   if (!problem.planes_at(column, row).contains(k)) return kInfinity;
   const Vec2d cell = problem.grid.cell_center(column, row);
-  return matching_cost(sample_views(problem, {cell.x, cell.y, k * problem.dz_m}, nullptr), problem.options);
+  return matching_cost(sample_views(problem, {cell.x, cell.y, k * problem.dz_m}), problem.options);
 }
 
 void match_cell(const SweepProblem& problem, int column, int row, MatchResult& result) {
