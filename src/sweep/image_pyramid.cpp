@@ -80,10 +80,6 @@ std::size_t ImagePyramid::bytes_for(int width_px, int height_px) {
   }
 }
 
-double ImagePyramid::sample_luminance(Vec2d pixel, int level) const {
-  return luminance_[level].sample(std::ldexp(1.0, -level) * pixel);
-}
-
 Rgb8 ImagePyramid::sample_color(Vec2d pixel, int level) const {
   const Array2d<Rgb8>& image = color_[level];
   const double scale = std::ldexp(1.0, -level);

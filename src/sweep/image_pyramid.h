@@ -69,7 +69,9 @@ class ImagePyramid {
   static std::size_t bytes_for(int width_px, int height_px);
 
   // Bilinear samples, in double precision: grey levels 0..255. `pixel` is a position at level 0, on the photograph.
-  double sample_luminance(Vec2d pixel, int level) const;
+  double sample_luminance(Vec2d pixel, int level) const {
+    return luminance_[level].sample(1.0 / (std::int64_t{1} << level) * pixel);
+  }
   Rgb8 sample_color(Vec2d pixel, int level) const;
 
  private:

@@ -82,13 +82,21 @@ ViewSamples sample_views(const SweepProblem& problem, Vec3d point) {
 }
 
 std::array<double, kMaxViews> view_costs(const ViewSamples& samples) {
-  Costs costs{};
+  Costs costs{}, differences;
   for (int i = 0; i < samples.count; ++i) {
-    for (int k = i + 1; k < samples.count; ++k) {
-      const double difference = samples.difference(i, k);
-      costs[i] += difference;
-      costs[k] += difference;
+    // As ViewSamples::difference, level after level for all other views at once.
+    for (int k = i + 1; k < samples.count; ++k) differences[k] = 0;
+    for (int level = 0; level < samples.levels; ++level) {
+      const Costs& luminance = samples.luminance[level];
+      for (int k = i + 1; k < samples.count; ++k) differences[k] += std::abs(luminance[i] - luminance[k]);
     }
+    double own = costs[i];
+    for (int k = i + 1; k < samples.count; ++k) {
+      differences[k] /= samples.levels;
+      costs[k] += differences[k];
+    }
+    for (int k = i + 1; k < samples.count; ++k) own += differences[k];
+    costs[i] = own;
   }
   for (int k = 0; k < samples.count && samples.count > 1; ++k) costs[k] /= samples.count - 1;
   return costs;
