@@ -57,19 +57,6 @@ LuminanceLevel prepared(Array2d<std::uint16_t> inner, Normalization normalizatio
   return level;
 }
 
-// Index of the pixel left of (above) a sampling position, and the weight of its right (lower) neighbour.
-struct Tap {
-  int index;
-  double weight;
-};
-Tap tap_at(double position, int size) {
-  const double shifted = position - 0.5;
-  const double floor = std::floor(shifted);
-  return {std::clamp(static_cast<int>(floor), -1, size - 1), shifted - floor};
-}
-
-double mix(double a, double b, double weight) { return a + weight * (b - a); }
-
 }  // namespace
 
 ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization) {
@@ -95,16 +82,6 @@ std::size_t ImagePyramid::bytes_for(int width_px, int height_px) {
     bytes += sizeof(std::uint16_t) * (w + 2) * (h + 2) + sizeof(Rgb8) * w * h;
     if (w <= 1 && h <= 1) return bytes;
   }
-}
-
-double ImagePyramid::sample_luminance(Vec2d pixel, int level) const {
-  const LuminanceLevel& image = luminance_[level];
-  const double scale = std::ldexp(1.0, -level);
-  const Tap x = tap_at(pixel.x * scale, image.width);
-  const Tap y = tap_at(pixel.y * scale, image.height);
-  const double upper = mix(image.at(x.index, y.index), image.at(x.index + 1, y.index), x.weight);
-  const double lower = mix(image.at(x.index, y.index + 1), image.at(x.index + 1, y.index + 1), x.weight);
-  return mix(upper, lower, y.weight) / kLuminanceScale;
 }
 
 Rgb8 ImagePyramid::sample_color(Vec2d pixel, int level) const {

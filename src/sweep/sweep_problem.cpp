@@ -62,6 +62,7 @@ SweepProblem::Rise SweepProblem::expected_rise(int from_column, int from_row, in
 
 void SweepProblem::check() const {
   SKY_CHECK(grid.width > 0 && grid.height > 0 && grid.cell_m > 0 && dz_m > 0);
+  SKY_CHECK(collar_cells >= 0 && 2 * collar_cells < std::min(grid.width, grid.height));
   SKY_CHECK_LE(views.size(), static_cast<std::size_t>(kMaxViews));
   SKY_CHECK_EQ(block_planes.width(), blocks_across(grid.width));
   SKY_CHECK_EQ(block_planes.height(), blocks_across(grid.height));

@@ -57,6 +57,7 @@ constexpr int kSteepestExpectedRise = 6;  // planes from a cell to the next: mor
 
 struct SweepProblem {
   Grid grid;
+  int collar_cells = 0;  // along the grid's border: swept for what they hide and steady, and not coloured
   double dz_m = 1;
   // Of each block, (0, 0) the north-west one; blocks without planes leave their cells without height.
   Array2d<PlaneSet> block_planes;

@@ -81,8 +81,8 @@ int dump_tile(const SweepOptions& options) {
                               kPhotoCacheBytes, settings.configuration.sweep.normalization());
   pipeline::TbbExecutor executor(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
 
-  const pipeline::PreparedTile tile =
-      pipeline::prepare_tile(*key, coverage.candidates(*key), settings, photos, executor);
+  pipeline::PreparedTile tile = pipeline::prepare_tile(*key, coverage.candidates(*key), settings, photos, executor);
+  tile.problem.collar_cells = 0;  // here the collar's colours are wanted, too
   const sweep::SweepProblem& problem = tile.problem;
   const sweep::MatchResult matches = sweep::match_planes(problem, settings.backend, executor);
   sweep::Heights heights = sweep::heights_from_matches(problem, matches);
