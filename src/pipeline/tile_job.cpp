@@ -36,11 +36,13 @@ tiles::Tile tile_from(const sweep::SweepResult& result, const TileOptions& optio
   tile.dem = without_collar(result.height_m, options);
   tile.confidence = without_collar(result.sigma_m, options);
   tile.color = without_collar(result.color, options);
+  const Array2d<std::uint8_t> filled = without_collar(result.filled, options);
   const Array2d<std::uint8_t> planar = without_collar(result.planar, options);
   tile.mask = Array2d<std::uint8_t>(options.cells, options.cells);
   for (std::size_t i = 0; i < tile.mask.size(); ++i) {
-    const bool measured = !std::isnan(tile.dem.data()[i]);
-    const tiles::CellSource source = measured                ? tiles::CellSource::measured
+    const bool has_height = !std::isnan(tile.dem.data()[i]);
+    const tiles::CellSource source = filled.data()[i] != 0   ? tiles::CellSource::filled
+                                     : has_height            ? tiles::CellSource::measured
                                      : planar.data()[i] != 0 ? tiles::CellSource::planar
                                                              : tiles::CellSource::none;
     tile.mask.data()[i] = static_cast<std::uint8_t>(source);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cells that photographs show, but the surface hides from them.
+#pragma once
+
+#include "core/executor.h"
+#include "sweep/heights.h"
+#include "sweep/visibility.h"
+
+namespace skysweep::sweep {
+
+// How far the surface must rise above a ray to hide what is behind, in plane steps: more than heights scatter.
+constexpr double kOcclusionTolerancePlanes = 3;
+
+// Whether at least min_views views (SweepOptions) show the cell at height z, and fewer than that see it past `surface`:
+// no place of that height can be measured there.
+bool is_hidden(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z);
+
+// Takes back heights that are hidden by the other heights: what the views agree on there is not that place. All are
+// judged against the heights as they come in. Their standard deviations become NaN, too.
+void drop_hidden_heights(const SweepProblem& problem, Executor& executor, Heights& heights);
+
+}  // namespace skysweep::sweep
