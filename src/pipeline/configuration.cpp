@@ -94,7 +94,10 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("window_level_min", o.window_level_min);
   key("window_level_max", o.window_level_max);
   key("normalization_radius_px", o.normalization_radius_px);
+  key("coarse_levels", o.coarse_levels);
+  key("rival_tolerance", o.rival_tolerance);
   key("aggregation", o.aggregation);
+  key("consensus_share", o.consensus_share);
   key("smoothing", o.smoothing);
   key("small_step_penalty", o.small_step_penalty);
   key("large_step_penalty", o.large_step_penalty);

@@ -91,7 +91,7 @@ TileOutcome compute_tile(tiles::TileKey key, const std::vector<const ImageRecord
   outcome.views = prepared.view_names;
   outcome.heights = prepared.heights;
   outcome.valid_share = share_with_height(outcome.tile.dem);
-  outcome.samples = sweep::sample_count(prepared.problem);
+  outcome.samples = result.samples;
   return outcome;
 }
 

@@ -8,7 +8,8 @@
 namespace skysweep::sweep {
 namespace {
 
-constexpr int kCollarBlocks = 1;  // swept beyond the core on both sides: paths forget within 64 cells what lies behind
+constexpr int kCollarBlocks =
+    64 / kBlockCells;  // swept beyond the core on both sides: paths forget within 64 cells what lies behind
 
 Band band_around(int core_first, int core_last, int block_rows) {
   return {std::max(0, core_first - kCollarBlocks), std::min(block_rows, core_last + kCollarBlocks), core_first,
@@ -55,6 +56,8 @@ void copy_core(const MatchResult& part, const Band& band, MatchResult& whole) {
   copy_rows(part.mean_cost, from_row, to_row, rows, whole.mean_cost);
   copy_rows(part.fraction, from_row, to_row, rows, whole.fraction);
   copy_rows(part.bend, from_row, to_row, rows, whole.bend);
+  copy_rows(part.rival_plane, from_row, to_row, rows, whole.rival_plane);
+  copy_rows(part.rival_excess, from_row, to_row, rows, whole.rival_excess);
 }
 
 }  // namespace skysweep::sweep

@@ -11,14 +11,16 @@ CostVolume::CostVolume(const SweepProblem& problem, Cost value)
       height_(problem.grid.height),
       all_planes_(problem.all_planes()),
       block_planes_(problem.block_planes),
-      block_offset_(problem.block_planes.width(), problem.block_planes.height()) {
+      cell_size_(block_planes_.width(), block_planes_.height()),
+      block_offset_(block_planes_.width(), block_planes_.height()) {
   std::size_t size = 0;
   for (int by = 0; by < block_planes_.height(); ++by) {
     std::size_t in_row = 0;
     for (int bx = 0; bx < block_planes_.width(); ++bx) {
       block_offset_(bx, by) = in_row;
+      cell_size_(bx, by) = padded_planes(block_planes_(bx, by));
       const int cells = std::min(kBlockCells, width_ - bx * kBlockCells);
-      in_row += static_cast<std::size_t>(cells) * padded_planes(block_planes_(bx, by));
+      in_row += static_cast<std::size_t>(cells) * cell_size_(bx, by);
     }
     for (int row = by * kBlockCells; row < std::min(height_, (by + 1) * kBlockCells); ++row) {
       row_offset_.push_back(size);
@@ -28,13 +30,30 @@ CostVolume::CostVolume(const SweepProblem& problem, Cost value)
   values_.assign(size, kBeyondRange);
   for (int row = 0; row < height_; ++row)
     for (int column = 0; column < width_; ++column)
-      std::fill_n(cell(column, row), planes_at(column, row).count(), value);
+      for_each_stored_range(planes_at(column, row), [&](StoredRange range) {
+        std::fill_n(cell(column, row) + range.slot, range.planes.count(), value);
+      });
 }
 
 std::size_t CostVolume::offset(int column, int row) const {
   const int bx = column / kBlockCells, by = row / kBlockCells;
   const auto within = static_cast<std::size_t>(column - bx * kBlockCells);
-  return row_offset_[row] + block_offset_(bx, by) + within * padded_planes(block_planes_(bx, by));
+  return row_offset_[row] + block_offset_(bx, by) + within * cell_size_(bx, by);
+}
+
+const Cost* CostVolume::find(int column, int row, int k) const {
+  int slot = 0;
+  for (const PlaneRange& range : planes_at(column, row).ranges()) {
+    if (k <= range.last) return k < range.first ? nullptr : cell(column, row) + slot + (k - range.first);
+    slot += sweep::padded_planes(range);
+  }
+  return nullptr;
+}
+
+int CostVolume::padded_planes(const PlaneSet& planes) {
+  int elements = 0;
+  for (const PlaneRange& range : planes.ranges()) elements += sweep::padded_planes(range);
+  return elements;
 }
 
 std::size_t CostVolume::bytes_for(const SweepProblem& problem) {

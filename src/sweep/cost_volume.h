@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The matching costs of all cells and planes of a problem, whole numbers of kCostScale units a grey level, so that what
-// is computed from them is exact. Planes lie innermost; each block of cells has its own range of planes.
+// is computed from them is exact. Planes lie innermost; each block of cells has its own planes, range after range.
 // Why 32 bits: docs/decisions/0006.
 #pragma once
 
@@ -17,7 +17,26 @@ using Cost = std::int32_t;
 constexpr double kCostScale = 1 << 20;  // units per grey level: below what single precision resolves in a cost
 constexpr Cost kWorstCost = 125 << 19;  // 62.5 grey levels: fewer than min_views views, and the limit of all costs
 constexpr Cost kBeyondRange = (1 << 30) - 1;  // padding behind the last plane: above any sum of eight paths
-constexpr int kVolumeLanes = 16;              // planes of a cell are padded to a multiple of this
+constexpr int kVolumeLanes = 16;              // the planes of each range of a cell are padded to a multiple of this
+
+// Elements that one cell takes for a range.
+inline int padded_planes(PlaneRange range) { return (range.count() + kVolumeLanes - 1) / kVolumeLanes * kVolumeLanes; }
+
+// Where among the values of a cell those of a range begin.
+struct StoredRange {
+  PlaneRange planes;
+  int slot = 0;
+};
+
+// Goes through the ranges of a set in the order in which a cell's values are stored.
+template <typename Visit>
+void for_each_stored_range(const PlaneSet& planes, Visit visit) {
+  int slot = 0;
+  for (const PlaneRange& range : planes.ranges()) {
+    visit(StoredRange{range, slot});
+    slot += padded_planes(range);
+  }
+}
 
 class CostVolume {
  public:
@@ -26,19 +45,23 @@ class CostVolume {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  PlaneRange planes_at(int column, int row) const { return block_planes_(column / kBlockCells, row / kBlockCells); }
+  const PlaneSet& planes_at(int column, int row) const {
+    return block_planes_(column / kBlockCells, row / kBlockCells);
+  }
   PlaneRange all_planes() const { return all_planes_; }
 
-  // Values of a cell, the first for planes_at(column, row).first.
+  // Values of a cell, as for_each_stored_range goes through them.
   Cost* cell(int column, int row) { return values_.data() + offset(column, row); }
   const Cost* cell(int column, int row) const { return values_.data() + offset(column, row); }
 
+  // Value at plane k, with the values of the planes below and above it behind and before it as long as the same range
+  // has them; null where k is not stored.
+  const Cost* find(int column, int row, int k) const;
+
   std::size_t bytes() const { return values_.size() * sizeof(Cost); }
 
-  // Elements that one cell of a block with this range takes.
-  static int padded_planes(PlaneRange planes) {
-    return (planes.count() + kVolumeLanes - 1) / kVolumeLanes * kVolumeLanes;
-  }
+  // Elements that one cell of a block with these planes takes.
+  static int padded_planes(const PlaneSet& planes);
   // Bytes of a volume for the problem, without making it.
   static std::size_t bytes_for(const SweepProblem& problem);
 
@@ -49,7 +72,8 @@ class CostVolume {
 
   int width_ = 0, height_ = 0;
   PlaneRange all_planes_;
-  Array2d<PlaneRange> block_planes_;
+  Array2d<PlaneSet> block_planes_;
+  Array2d<int> cell_size_;               // elements of each cell of a block
   Array2d<std::size_t> block_offset_;    // of the block's first cell within a row of cells
   std::vector<std::size_t> row_offset_;  // of each row of cells
   std::vector<Cost> values_;

@@ -23,10 +23,12 @@ constexpr double kConnectedPlanes = 2;
 constexpr int kSmallestSurfaceCells = 24;
 // Around the range found, in coarse planes: what the coarse sweep may have missed by its own resolution.
 constexpr double kMarginCoarsePlanes = 2;
-// A block is searched where the coarse surface lies up to this many coarse cells outside it, too: surfaces near a step
-// reach over the border of a block.
+// Ranges are found for areas of so many coarse cells across.
+constexpr int kAreaCoarseCells = 8;
+// An area is searched where the coarse surface lies up to this many coarse cells outside it, too: surfaces near a step
+// reach over its border.
 constexpr int kNeighborhoodCoarseCells = 4;
-// A block of which the coarse sweep knows less than this share may hold a surface that it missed (a small roof whose
+// An area of which the coarse sweep knows less than this share may hold a surface that it missed (a small roof whose
 // texture is gone at that scale, with false matches in between): all heights of the tile are searched there, if they
 // are at most so many planes: more cost minutes on real photographs of woods and gained nothing.
 constexpr double kLeastKnownShare = 0.75;
@@ -103,18 +105,17 @@ std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProbl
   problem.search_everywhere({});
   if (!whole) return std::nullopt;
 
-  constexpr int kCoarsePerBlock = kBlockCells / kCoarseCells;
   const double margin_m = kMarginCoarsePlanes * kCoarseCells * problem.dz_m;
   const int all_planes = planes_between(whole->z_low - margin_m, whole->z_high + margin_m, problem.dz_m, 1).count();
   const double least_known = all_planes <= kMostPlanesSearchedBlindly ? kLeastKnownShare : 0;
+  constexpr int kBlocksPerArea = kAreaCoarseCells * kCoarseCells / kBlockCells, reach = kNeighborhoodCoarseCells;
   for (int by = 0; by < problem.block_planes.height(); ++by) {
     for (int bx = 0; bx < problem.block_planes.width(); ++bx) {
-      const int x = bx * kCoarsePerBlock, y = by * kCoarsePerBlock;
-      constexpr int reach = kNeighborhoodCoarseCells;
+      const int x = bx / kBlocksPerArea * kAreaCoarseCells, y = by / kBlocksPerArea * kAreaCoarseCells;
+      const int right = x + kAreaCoarseCells, bottom = y + kAreaCoarseCells;
       HeightRange range = *whole;
-      if (known_share(surface, x, y, x + kCoarsePerBlock, y + kCoarsePerBlock) >= least_known)
-        range = range_within(surface, x - reach, y - reach, x + kCoarsePerBlock + reach, y + kCoarsePerBlock + reach)
-                    .value_or(*whole);
+      if (known_share(surface, x, y, right, bottom) >= least_known)
+        range = range_within(surface, x - reach, y - reach, right + reach, bottom + reach).value_or(*whole);
       problem.block_planes(bx, by) = planes_between(range.z_low - margin_m, range.z_high + margin_m, problem.dz_m, 1);
     }
   }

@@ -15,7 +15,9 @@ MatchResult::MatchResult(int width, int height)
       cost(width, height, kInfinity),
       mean_cost(width, height, kInfinity),
       fraction(width, height, kNaN),
-      bend(width, height, kNaN) {}
+      bend(width, height, kNaN),
+      rival_plane(width, height, 0),
+      rival_excess(width, height, kInfinity) {}
 
 Parabola parabola_through(double below, double middle, double above) {
   const double bend = below - 2 * middle + above;

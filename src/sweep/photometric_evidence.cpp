@@ -22,13 +22,15 @@ std::optional<double> penalty_at(const SweepProblem& problem, Vec2d cell, int k)
   return problem.options.few_views_penalty / n;
 }
 
-double mean_penalty(const SweepProblem& problem, Vec2d cell, PlaneRange planes) {
+double mean_penalty(const SweepProblem& problem, Vec2d cell, const PlaneSet& planes) {
   double sum = 0;
   int counted = 0;
-  for (int k = planes.first; k <= planes.last; ++k) {
-    if (const auto penalty = penalty_at(problem, cell, k)) {
-      sum += *penalty;
-      ++counted;
+  for (const PlaneRange& range : planes.ranges()) {
+    for (int k = range.first; k <= range.last; ++k) {
+      if (const auto penalty = penalty_at(problem, cell, k)) {
+        sum += *penalty;
+        ++counted;
+      }
     }
   }
   return counted > 0 ? sum / counted : 0;

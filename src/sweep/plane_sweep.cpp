@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/plane_sweep.h"
 
+#include "sweep/coarse_to_fine.h"
 #include "sweep/filling.h"
 #include "sweep/heights.h"
 #include "sweep/hidden_cells.h"
@@ -10,14 +11,30 @@
 
 namespace skysweep::sweep {
 
+namespace {
+
+MatchResult search(const SweepProblem& problem, Backend backend, Executor& executor, double& samples) {
+  if (problem.options.coarse_levels == 0) {
+    samples += sample_count(problem);
+    return match_planes(problem, backend, executor);
+  }
+  NarrowedSearch narrowed = narrow_search(problem, backend, executor, samples);
+  samples += sample_count(narrowed.problem);
+  MatchResult matches = match_planes(narrowed.problem, backend, executor);
+  matches.mean_cost = std::move(narrowed.mean_cost);
+  return matches;
+}
+
+}  // namespace
+
 SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor) {
   problem.check();
-  const MatchResult matches = match_planes(problem, backend, executor);
+  SweepResult result;
+  const MatchResult matches = search(problem, backend, executor, result.samples);
   Heights heights = heights_from_matches(problem, matches);
   drop_heights_without_evidence(problem, matches, executor, heights);
   drop_speckles(problem, heights);
   drop_hidden_heights(problem, executor, heights);
-  SweepResult result;
   result.filled = fill_hidden_cells(problem, executor, heights);
   result.height_m = std::move(heights.height_m);
   result.sigma_m = std::move(heights.sigma_m);

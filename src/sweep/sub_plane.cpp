@@ -18,9 +18,8 @@ struct CostTriple {
 };
 
 void add(const CostVolume& costs, int column, int row, int plane, CostTriple& triple) {
-  const PlaneRange planes = costs.planes_at(column, row);
-  if (plane - 1 < planes.first || plane + 1 > planes.last) return;
-  const Cost* cost = costs.cell(column, row) + (plane - planes.first);
+  const Cost* cost = costs.find(column, row, plane);
+  if (!cost || !costs.find(column, row, plane - 1) || !costs.find(column, row, plane + 1)) return;
   if (cost[-1] == kWorstCost || cost[1] == kWorstCost) return;
   for (int i = 0; i < 3; ++i) triple.sum[i] += cost[i - 1];
 }

@@ -13,8 +13,8 @@ inline constexpr int kMaxViews = 32;
 enum class Aggregation {
   all_views,    // mean over all views that show the sample
   better_half,  // mean over the floor(n/2) views that agree best with all the others
-  consensus,    // of the better half only the differences among themselves count: views that are hidden from the place,
-                // up to half of them, do not raise its cost
+  consensus,    // of the views that agree best, a share of all, only the differences among themselves count: views that
+                // are hidden from the place do not raise its cost
 };
 
 enum class Smoothing {
@@ -32,7 +32,18 @@ struct SweepOptions {
   // photographs of different exposure and surfaces of different contrast compare; 0: as photographed, the classic cost.
   int normalization_radius_px = 5;
 
+  // Coarser grids that are searched first, each with cells twice as large as the next: the first everywhere, the others
+  // and the fine one only near what it found; 0: everywhere at once (sweep/coarse_to_fine.h).
+  int coarse_levels = 0;
+
+  // A coarse height is followed as well if the cost of its minimum is at most so far above the best one's, grey levels.
+  double rival_tolerance = 1;
+
   Aggregation aggregation = Aggregation::consensus;
+
+  // How many of the views that show a place make up its consensus, at least three of them: fewer find what few see,
+  // more measure it better.
+  double consensus_share = 0.5;
 
   Smoothing smoothing = Smoothing::semi_global;
 

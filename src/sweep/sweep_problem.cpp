@@ -2,15 +2,17 @@
 #include "sweep/sweep_problem.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace skysweep::sweep {
 
 std::optional<std::string> SweepOptions::problem() const {
   if (window_level_min < 0 || window_level_max < window_level_min || window_level_max > 8)
     return "window levels must satisfy 0 <= window_level_min <= window_level_max <= 8";
+  if (coarse_levels < 0 || coarse_levels > 6) return "coarse_levels must lie between 0 (search everywhere) and 6";
+  if (!(rival_tolerance >= 0 && rival_tolerance <= 60)) return "rival_tolerance must lie between 0 and 60 grey levels";
   if (normalization_radius_px < 0 || normalization_radius_px > 100)
     return "normalization_radius_px must lie between 0 (off) and 100";
+  if (!(consensus_share > 0 && consensus_share <= 1)) return "consensus_share must lie above 0 and not above 1";
   if (!(small_step_penalty >= 0 && large_step_penalty >= small_step_penalty && large_step_penalty <= 60))
     return "penalties must satisfy 0 <= small_step_penalty <= large_step_penalty <= 60 grey levels";
   if (refinement_radius_cells < 0 || refinement_radius_cells > 16)
@@ -25,37 +27,21 @@ std::optional<std::string> SweepOptions::problem() const {
   return std::nullopt;
 }
 
-void PlaneRange::include(PlaneRange other) {
-  if (other.empty()) return;
-  if (empty()) {
-    *this = other;
-    return;
-  }
-  first = std::min(first, other.first);
-  last = std::max(last, other.last);
-}
-
-PlaneRange planes_between(double z_low, double z_high, double dz_m, int margin) {
-  SKY_CHECK(dz_m > 0 && z_low <= z_high);
-  return {static_cast<int>(std::floor(z_low / dz_m)) - margin, static_cast<int>(std::ceil(z_high / dz_m)) + margin};
-}
-
 void SweepProblem::search_everywhere(PlaneRange planes) {
-  const auto blocks = [](int cells) { return (cells + kBlockCells - 1) / kBlockCells; };
-  block_planes = Array2d<PlaneRange>(blocks(grid.width), blocks(grid.height), planes);
+  block_planes = Array2d<PlaneSet>(blocks_across(grid.width), blocks_across(grid.height), planes);
 }
 
 PlaneRange SweepProblem::all_planes() const {
   PlaneRange all;
-  for (const PlaneRange& range : block_planes) all.include(range);
+  for (const PlaneSet& planes : block_planes) all.include(planes.hull());
   return all;
 }
 
 void SweepProblem::check() const {
   SKY_CHECK(grid.width > 0 && grid.height > 0 && grid.cell_m > 0 && dz_m > 0);
   SKY_CHECK_LE(views.size(), static_cast<std::size_t>(kMaxViews));
-  SKY_CHECK_EQ(block_planes.width(), (grid.width + kBlockCells - 1) / kBlockCells);
-  SKY_CHECK_EQ(block_planes.height(), (grid.height + kBlockCells - 1) / kBlockCells);
+  SKY_CHECK_EQ(block_planes.width(), blocks_across(grid.width));
+  SKY_CHECK_EQ(block_planes.height(), blocks_across(grid.height));
   SKY_CHECK(!options.problem());
   for (const View& view : views) {
     SKY_CHECK(view.image != nullptr);

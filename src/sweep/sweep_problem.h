@@ -9,6 +9,7 @@
 #include "core/array2d.h"
 #include "core/vec.h"
 #include "sweep/image_pyramid.h"
+#include "sweep/plane_set.h"
 #include "sweep/sweep_options.h"
 
 namespace skysweep::sweep {
@@ -26,20 +27,6 @@ struct Grid {
   }
 };
 
-// Planes z = k dz for k = first..last, on the absolute lattice: a wider range never moves a plane.
-struct PlaneRange {
-  int first = 0;
-  int last = -1;
-
-  bool empty() const { return last < first; }
-  int count() const { return empty() ? 0 : last - first + 1; }
-  void include(PlaneRange other);
-  friend bool operator==(PlaneRange, PlaneRange) = default;
-};
-
-// The planes that bracket all heights from z_low to z_high, `margin` planes more on both sides.
-PlaneRange planes_between(double z_low, double z_high, double dz_m, int margin);
-
 struct View {
   const ImagePyramid* image = nullptr;
   camera::Camera camera;  // in the tile's frame
@@ -47,27 +34,29 @@ struct View {
       0;  // mipmap level whose pixels are about as large as a cell: 0 when a cell is no larger than a pixel
 };
 
-// Planes are searched block by block: each block of kBlockCells x kBlockCells cells has a range of its own.
-constexpr int kBlockCells = 64;
+// Planes are searched block by block: each block of kBlockCells x kBlockCells cells has planes of its own.
+constexpr int kBlockCells = 16;
+
+constexpr int blocks_across(int cells) { return (cells + kBlockCells - 1) / kBlockCells; }
 
 struct SweepProblem {
   Grid grid;
   double dz_m = 1;
-  // One range per block, (0, 0) the north-west one; empty ranges leave their cells without height.
-  Array2d<PlaneRange> block_planes;
+  // Of each block, (0, 0) the north-west one; blocks without planes leave their cells without height.
+  Array2d<PlaneSet> block_planes;
   std::vector<View> views;  // their order decides ties: keep it independent of arrival order
   SweepOptions options;
 
   // All blocks search the same planes.
   void search_everywhere(PlaneRange planes);
-  PlaneRange planes_at(int column, int row) const { return block_planes(column / kBlockCells, row / kBlockCells); }
-  PlaneRange all_planes() const;
+  const PlaneSet& planes_at(int column, int row) const { return block_planes(column / kBlockCells, row / kBlockCells); }
+  PlaneRange all_planes() const;  // from the lowest to the highest of any block
 
   // A bug in the caller, not bad input: aborts unless views, options and ranges fit together.
   void check() const;
 };
 
-// pixels x planes x views x window levels: the samples an exhaustive sweep of this problem takes.
+// cells x planes x views x window levels: the samples that searching this problem takes.
 double sample_count(const SweepProblem& problem);
 
 }  // namespace skysweep::sweep

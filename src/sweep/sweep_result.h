@@ -17,6 +17,7 @@ struct SweepResult {
   Array2d<std::uint8_t> planar;      // 1 where the colour comes from the planar fallback
   Array2d<std::int8_t> color_view;   // position in problem.views of the photograph the colour is from; -1 none
   Array2d<std::uint8_t> view_count;  // views that show the cell at its height
+  double samples = 0;                // luminance samples that the search took
 };
 
 }  // namespace skysweep::sweep

@@ -20,10 +20,10 @@ double mean_of_lowest(Costs costs, int count, int used) {
 }
 
 // Mean difference of the pairs of views, weighted by how near their C_k are to being one of the lowest.
-double difference_within_consensus(const ViewSamples& samples, const Costs& costs) {
+double difference_within_consensus(const ViewSamples& samples, const Costs& costs, double share) {
   Costs sorted = costs;
   std::sort(sorted.begin(), sorted.begin() + samples.count);
-  const double limit = sorted[consensus_size(samples.count) - 1];
+  const double limit = sorted[consensus_size(samples.count, share) - 1];
   const double reach = kConsensusSoftness * limit + kConsensusSoftnessGrey;
   const auto weight = [&](int k) { return std::clamp(1 - (costs[k] - limit) / reach, 0.0, 1.0); };
   double sum = 0, weights = 0;
@@ -39,6 +39,11 @@ double difference_within_consensus(const ViewSamples& samples, const Costs& cost
 }
 
 }  // namespace
+
+int consensus_size(int n, double share) {
+  const int size = static_cast<int>(std::ceil(n * share - kShareSlack));
+  return std::max(size, std::min(n, kSmallestConsensus));
+}
 
 double ViewSamples::difference(int i, int k) const {
   double sum = 0;
@@ -86,7 +91,7 @@ double matching_cost(const ViewSamples& samples, const SweepOptions& options) {
   switch (options.aggregation) {
     case Aggregation::all_views: return mean_of_lowest(costs, n, n) + penalty;
     case Aggregation::better_half: return mean_of_lowest(costs, n, std::max(1, n / 2)) + penalty;
-    case Aggregation::consensus: return difference_within_consensus(samples, costs) + penalty;
+    case Aggregation::consensus: return difference_within_consensus(samples, costs, options.consensus_share) + penalty;
   }
   return std::numeric_limits<double>::infinity();
 }

@@ -34,8 +34,11 @@ std::array<double, kMaxViews> view_costs(const ViewSamples& samples);
 // min_views views.
 double matching_cost(const ViewSamples& samples, const SweepOptions& options);
 
-// How many of n views Aggregation::consensus takes.
-constexpr int consensus_size(int n) { return n < 3 ? 2 : (n + 1) / 2; }
+// How many of n views Aggregation::consensus takes: their share, rounded up, but no fewer than three if there are so
+// many. Two agree by chance too easily.
+int consensus_size(int n, double share);
+constexpr int kSmallestConsensus = 3;
+constexpr double kShareSlack = 1e-4;  // what rounding may add to n times the share without another view being needed
 
 // A view whose C_k is above the consensus's highest, `limit`, still counts a little: its weight falls from 1 at the
 // limit to 0 at limit (1 + kConsensusSoftness) + kConsensusSoftnessGrey. So the cost does not jump where two views

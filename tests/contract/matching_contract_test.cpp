@@ -17,6 +17,12 @@
 namespace skysweep::sweep {
 namespace {
 
+PlaneSet two_ranges(PlaneRange low, PlaneRange high) {
+  PlaneSet planes = low;
+  planes.include(high);
+  return planes;
+}
+
 using test::SyntheticProblem;
 
 struct ContractCase {
@@ -112,9 +118,11 @@ std::vector<ContractCase> cases() {
       {"blocks_with_planes_of_their_own",
        [] {
          SyntheticProblem p = standard(6, rolling);
-         p.problem.block_planes(0, 0) = {-3, 9};
+         p.problem.block_planes(0, 0) = PlaneRange{-3, 9};
          p.problem.block_planes(1, 1) = {};
-         p.problem.block_planes(1, 0) = {2, 2};
+         p.problem.block_planes(1, 0) = PlaneRange{2, 2};
+         p.problem.block_planes(2, 0) = two_ranges({-4, -2}, {1, 30});
+         p.problem.block_planes(0, 2) = two_ranges({-2, 2}, {4, 4});
          return p;
        }},
       {"oblique_views",
@@ -216,18 +224,25 @@ TEST(MatchingContract, smoothing_is_exact) {
   SweepProblem problem;
   problem.grid = {150, 90, 1, {0, 0}};
   problem.search_everywhere({});
-  problem.block_planes = Array2d<PlaneRange>(3, 2);
-  problem.block_planes(0, 0) = {-7, 40};
-  problem.block_planes(1, 0) = {10, 11};
-  problem.block_planes(2, 0) = {-60, -20};  // no plane in common with its neighbour
-  problem.block_planes(0, 1) = {0, 31};
-  problem.block_planes(1, 1) = {};  // paths break off here
-  problem.block_planes(2, 1) = {-100, 60};
+  const std::vector<PlaneSet> sets = {
+      PlaneRange{-7, 40},
+      PlaneRange{10, 11},
+      PlaneRange{-60, -20},  // no plane in common with the one before
+      PlaneRange{0, 31},
+      {},  // paths break off here
+      PlaneRange{-100, 60},
+      two_ranges({-30, -10}, {-8, 20}),  // nearer to each other than a vector is wide
+      two_ranges({-90, -60}, {12, 12}),
+  };
+  for (PlaneSet& planes : problem.block_planes) planes = sets[random.below(sets.size())];
   CostVolume costs(problem, 0);
   for (int y = 0; y < problem.grid.height; ++y)
     for (int x = 0; x < problem.grid.width; ++x)
-      for (int i = 0; i < costs.planes_at(x, y).count(); ++i)
-        costs.cell(x, y)[i] = random.below(9) == 0 ? kWorstCost : static_cast<Cost>(random.below(kWorstCost));
+      for_each_stored_range(costs.planes_at(x, y), [&](StoredRange range) {
+        for (int i = 0; i < range.planes.count(); ++i)
+          costs.cell(x, y)[range.slot + i] =
+              random.below(9) == 0 ? kWorstCost : static_cast<Cost>(random.below(kWorstCost));
+      });
   for (const double large : {0.0, 8.0, 60.0}) {
     problem.options.small_step_penalty = large / 8;
     problem.options.large_step_penalty = large;

@@ -20,7 +20,7 @@ TEST(HardCosts, ties_go_to_the_lowest_plane_everywhere) {
     p.problem.options.smoothing = smoothing;
     p.add_ring(4, test::small_camera(), 3, 30, [](Vec3d) { return 77.0; });
     p.set_grid(64, 0.1, 0.1, -1.05, 1);
-    const int lowest = p.problem.planes_at(0, 0).first;
+    const int lowest = p.problem.planes_at(0, 0).hull().first;
     SerialExecutor serial;
     ThreadExecutor threads(3);
     for (const sweep::Backend backend : {sweep::Backend::cpu, sweep::Backend::reference}) {

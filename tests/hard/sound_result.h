@@ -28,7 +28,7 @@ inline void expect_sound(const sweep::SweepProblem& problem, const sweep::SweepR
     for (int x = 0; x < problem.grid.width; ++x) {
       const float z = r.height_m(x, y), sigma = r.sigma_m(x, y);
       const bool nothing = std::isnan(z) && std::isnan(sigma);
-      const sweep::PlaneRange planes = problem.planes_at(x, y);
+      const sweep::PlaneRange planes = problem.planes_at(x, y).hull();
       // One plane of freedom: single precision rounds heights of several kilometres.
       const bool something = std::isfinite(z) && std::isfinite(sigma) && sigma > 0 &&
                              z >= (planes.first - 1) * problem.dz_m && z <= (planes.last + 1) * problem.dz_m;

@@ -91,7 +91,7 @@ TEST(PlaneSweep, knows_nothing_where_fewer_than_two_photographs_look) {
 
 TEST(PlaneSweep, planar_fallback_colours_cells_without_height_only_when_asked) {
   test::SyntheticProblem p = rolling_ground(5);
-  p.problem.block_planes(1, 0) = {};
+  p.problem.block_planes(5, 0) = {};
   SerialExecutor serial;
   EXPECT_EQ(plane_sweep(p.problem, Backend::cpu, serial).color(80, 5).a, 0);
   p.problem.options.planar_fallback = true;

@@ -19,7 +19,7 @@ CostVolume curves(const SweepProblem& problem, double slope, Surface surface) {
   CostVolume costs(problem, 0);
   for (int y = 0; y < costs.height(); ++y) {
     for (int x = 0; x < costs.width(); ++x) {
-      const PlaneRange planes = costs.planes_at(x, y);
+      const PlaneRange planes = costs.planes_at(x, y).hull();
       for (int k = planes.first; k <= planes.last; ++k)
         costs.cell(x, y)[k - planes.first] = quantized_cost(2 + slope * std::abs(k - surface(x, y)));
     }

@@ -126,14 +126,16 @@ HWY_INLINE VF mean_of_better_half(const Lanes& lanes) {
   return hn::Div(sum, hn::Mul(used, hn::Sub(lanes.n, one)));
 }
 
-HWY_INLINE VF mean_within_consensus(const Lanes& lanes) {
+HWY_INLINE VF mean_within_consensus(const Lanes& lanes, double share) {
   const F f;
   const int count = lanes.samples.count;
-  const VF half = hn::Set(f, 0.5f), one = hn::Set(f, 1.0f), two = hn::Set(f, 2.0f);
+  const VF half = hn::Set(f, 0.5f), one = hn::Set(f, 1.0f);
   alignas(64) std::array<float, kMaxViews * kSegmentCells> sorted, weight;
-  const int most = consensus_size(count);
+  const int most = consensus_size(count, share);
   lanes.sort(std::min(most, count), sorted.data());
-  const VF size = hn::Max(two, hn::Floor(hn::Mul(hn::Add(lanes.n, one), half)));
+  const VF wanted = hn::Ceil(
+      hn::MulAdd(hn::Set(f, static_cast<float>(share)), lanes.n, hn::Set(f, -static_cast<float>(kShareSlack))));
+  const VF size = hn::Max(wanted, hn::Min(lanes.n, hn::Set(f, static_cast<float>(kSmallestConsensus))));
   VF limit = hn::Zero(f);
   for (int k = 0; k < std::min(most, count); ++k)
     limit = hn::IfThenElse(hn::Eq(size, hn::Set(f, static_cast<float>(k + 1))),
@@ -178,7 +180,7 @@ HWY_INLINE void aggregate_segment(const SegmentSamples& samples, const SegmentDi
     switch (options.aggregation) {
       case Aggregation::all_views: mean = mean_of_all(lanes); break;
       case Aggregation::better_half: mean = mean_of_better_half(lanes); break;
-      case Aggregation::consensus: mean = mean_within_consensus(lanes); break;
+      case Aggregation::consensus: mean = mean_within_consensus(lanes, options.consensus_share); break;
     }
     const auto enough = hn::Ge(n, hn::Set(f, static_cast<float>(options.min_views)));
     const VF cost = hn::MulAdd(mean, unit, hn::Div(penalty, n));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once for every instruction set by Highway's foreach_target; dispatched once per row of a block.
+// Compiled once for every instruction set by Highway's foreach_target; dispatched once per run of cells.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sweep/cpu/match_cpu.cpp"
 #include <hwy/foreach_target.h>
@@ -17,7 +17,7 @@ namespace skysweep::sweep::cpu::HWY_NAMESPACE {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Scratch of one row: large, so made once for it.
+// Scratch of one run: large, so made once for it.
 struct Workspace {
   std::array<Knots, kMaxViews> knots;
   std::array<Positions, kMaxViews> positions;
@@ -28,7 +28,7 @@ struct Workspace {
 };
 
 // Finds the views that show a segment at one plane, and where.
-HWY_INLINE void find_positions(const RowJob& job, int segment, double z, Workspace& work) {
+HWY_INLINE void find_positions(const RunJob& job, int segment, double z, Workspace& work) {
   SegmentSamples& samples = work.samples;
   samples.count = 0;
   samples.all = true;
@@ -52,7 +52,7 @@ HWY_INLINE void find_positions(const RowJob& job, int segment, double z, Workspa
 }
 
 // Costs of one segment at one plane, into work.costs.
-HWY_INLINE void segment_costs(const RowJob& job, int segment, double z, Workspace& work) {
+HWY_INLINE void segment_costs(const RunJob& job, int segment, double z, Workspace& work) {
   find_positions(job, segment, z, work);
   if (work.samples.count < job.options->min_views) return work.costs.fill(kInfinity);
   work.samples.levels = job.options->window_level_max - job.options->window_level_min + 1;
@@ -63,27 +63,54 @@ HWY_INLINE void segment_costs(const RowJob& job, int segment, double z, Workspac
   aggregate_segment(work.samples, work.differences, *job.options, work.costs.data());
 }
 
-// Calls take(k, first cell, costs) with the costs of one segment at a time, planes in ascending order.
+// Where a segment stands among the ranges of its planes while k ascends.
+struct Cursor {
+  const PlaneSet* planes = nullptr;
+  std::size_t range = 0;
+  int slot = 0;  // of the range (cost_volume.h)
+
+  // Whether plane k is searched; k must not be less than before.
+  HWY_INLINE bool reaches(int k) {
+    if (!planes) return false;
+    const std::vector<PlaneRange>& ranges = planes->ranges();
+    while (range < ranges.size() && ranges[range].last < k) slot += padded_planes(ranges[range++]);
+    return range < ranges.size() && ranges[range].first <= k;
+  }
+  PlaneRange current() const { return planes->ranges()[range]; }
+};
+
+// Calls take(segment, cursor, k, costs) with the costs of one segment at a time, planes in ascending order.
 template <typename Take>
-HWY_INLINE void for_each_segment(const RowJob& job, Take take) {
-  const int segments = (job.cells + kSegmentCells - 1) / kSegmentCells;
+HWY_INLINE void for_each_segment(const RunJob& job, Take take) {
+  std::array<Cursor, kSegmentsPerRun> cursors;
+  PlaneRange hull;
+  for (int segment = 0; segment < kSegmentsPerRun; ++segment) {
+    cursors[segment].planes = job.planes[segment];
+    if (job.planes[segment]) hull.include(job.planes[segment]->hull());
+  }
   Workspace work;
-  for (int k = job.planes.first; k <= job.planes.last; ++k) {
+  for (int k = hull.first; k <= hull.last; ++k) {
+    std::array<bool, kSegmentsPerRun> wanted;
+    for (int segment = 0; segment < kSegmentsPerRun; ++segment) wanted[segment] = cursors[segment].reaches(k);
+    if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) continue;
     const double z = k * job.dz_m;
     for (std::size_t v = 0; v < job.views->size(); ++v)
       project_knots((*job.views)[v], job.first_cell, job.cell_m, z, work.knots[v]);
-    for (int segment = 0; segment < segments; ++segment) {
+    for (int segment = 0; segment < kSegmentsPerRun; ++segment) {
+      if (!wanted[segment]) continue;
       segment_costs(job, segment, z, work);
-      take(k, segment * kSegmentCells, work.costs.data());
+      take(segment, cursors[segment], k, work.costs.data());
     }
   }
 }
 
 // Takes the costs of plane k into the running winner; planes come in ascending order.
-HWY_INLINE void keep_winner(const float* HWY_RESTRICT costs, int k, int first, RowState& state) {
+// `range_begins`: plane k - 1 was not searched.
+HWY_INLINE void keep_winner(const float* HWY_RESTRICT costs, int k, bool range_begins, int first, RunState& state) {
   const F f;
   const I i32;
   const VF infinity = hn::Set(f, kInfinity);
+  if (range_begins) std::fill_n(state.previous.begin() + first, kSegmentCells, kInfinity);
   for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
     const int at = first + i;
     const VF cost = hn::Load(f, costs + i);
@@ -108,23 +135,28 @@ HWY_INLINE void keep_winner(const float* HWY_RESTRICT costs, int k, int first, R
   }
 }
 
-void match_row(const RowJob& job, RowState& state) {
-  for_each_segment(job, [&](int k, int first, const float* costs) { keep_winner(costs, k, first, state); });
+void match_run(const RunJob& job, RunState& state) {
+  for_each_segment(job, [&](int segment, const Cursor& cursor, int k, const float* costs) {
+    keep_winner(costs, k, k == cursor.current().first, segment * kSegmentCells, state);
+  });
 }
 
-// Costs of a row into the volume: `cell` is the row's first cell, `stride` elements from one cell to the next.
-void fill_row(const RowJob& job, Cost* cell, int stride) {
+// Costs of a run into the volume: `cells` are the first cells of the segments, `strides` the elements from one cell to
+// the next.
+void fill_run(const RunJob& job, const std::array<Cost*, kSegmentsPerRun>& cells,
+              const std::array<int, kSegmentsPerRun>& strides) {
   const F f;
   const I i32;
-  for_each_segment(job, [&](int k, int first, const float* costs) {
+  for_each_segment(job, [&](int segment, const Cursor& cursor, int k, const float* costs) {
     alignas(64) std::array<Cost, kSegmentCells> quantized;
     for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
       const VF units = hn::Mul(hn::Load(f, costs + i), hn::Set(f, static_cast<float>(kCostScale)));
       hn::Store(hn::NearestInt(hn::Min(units, hn::Set(f, static_cast<float>(kWorstCost)))), i32, quantized.data() + i);
     }
-    const int cells = std::min(kSegmentCells, job.cells - first);
-    Cost* to = cell + static_cast<std::ptrdiff_t>(first) * stride + (k - job.planes.first);
-    for (int i = 0; i < cells; ++i) to[static_cast<std::ptrdiff_t>(i) * stride] = quantized[i];
+    const int count = std::min(kSegmentCells, job.cells - segment * kSegmentCells);
+    const std::ptrdiff_t stride = strides[segment];
+    Cost* to = cells[segment] + cursor.slot + (k - cursor.current().first);
+    for (int i = 0; i < count; ++i) to[i * stride] = quantized[i];
   });
 }
 
@@ -166,14 +198,14 @@ HWY_AFTER_NAMESPACE();
 
 namespace skysweep::sweep::cpu {
 
-HWY_EXPORT(match_row);
-HWY_EXPORT(fill_row);
+HWY_EXPORT(match_run);
+HWY_EXPORT(fill_run);
 HWY_EXPORT(sample_everywhere);
 
 namespace {
 
-RowState empty_state() {
-  RowState state;
+RunState empty_state() {
+  RunState state;
   for (auto* costs : {&state.best, &state.below, &state.above, &state.previous})
     costs->fill(std::numeric_limits<float>::infinity());
   for (auto* counts : {&state.sum, &state.seen}) counts->fill(0);
@@ -181,7 +213,7 @@ RowState empty_state() {
   return state;
 }
 
-void store(const RowState& state, int first_column, int row, int cells, MatchResult& result) {
+void store(const RunState& state, int first_column, int row, int cells, MatchResult& result) {
   for (int i = 0; i < cells; ++i) {
     if (state.seen[i] == 0) continue;
     const int column = first_column + i;
@@ -194,22 +226,25 @@ void store(const RowState& state, int first_column, int row, int cells, MatchRes
   }
 }
 
-// Calls body(job, first column, row) for the part of every row of cells that lies in one block and has planes.
-void for_each_row_of_a_block(const SweepProblem& problem, Executor& executor,
-                             const std::function<void(const RowJob&, int, int)>& body) {
+// Calls body(job, first column, row) for every run of cells that has planes.
+void for_each_run(const SweepProblem& problem, Executor& executor,
+                  const std::function<void(const RunJob&, int, int)>& body) {
   std::vector<ViewKernel> views;
   for (const View& view : problem.views) views.push_back(make_view_kernel(view, problem.options));
   executor.parallel_for(problem.grid.height, [&](int row) {
-    for (int block = 0; block < problem.block_planes.width(); ++block) {
-      const int column = block * kBlockCells;
-      const RowJob job{&views,
-                       &problem.options,
-                       problem.grid.cell_center(column, row),
-                       problem.grid.cell_m,
-                       problem.dz_m,
-                       std::min(kBlockCells, problem.grid.width - column),
-                       problem.planes_at(column, row)};
-      if (!job.planes.empty()) body(job, column, row);
+    for (int column = 0; column < problem.grid.width; column += kRunCells) {
+      RunJob job{&views,
+                 &problem.options,
+                 problem.grid.cell_center(column, row),
+                 problem.grid.cell_m,
+                 problem.dz_m,
+                 std::min(kRunCells, problem.grid.width - column)};
+      bool any = false;
+      for (int segment = 0; segment * kSegmentCells < job.cells; ++segment) {
+        job.planes[segment] = &problem.planes_at(column + segment * kSegmentCells, row);
+        any = any || !job.planes[segment]->empty();
+      }
+      if (any) body(job, column, row);
     }
   });
 }
@@ -218,8 +253,14 @@ void for_each_row_of_a_block(const SweepProblem& problem, Executor& executor,
 
 CostVolume match_costs(const SweepProblem& problem, Executor& executor) {
   CostVolume costs(problem, kWorstCost);
-  for_each_row_of_a_block(problem, executor, [&](const RowJob& job, int column, int row) {
-    HWY_DYNAMIC_DISPATCH(fill_row)(job, costs.cell(column, row), CostVolume::padded_planes(job.planes));
+  for_each_run(problem, executor, [&](const RunJob& job, int column, int row) {
+    std::array<Cost*, kSegmentsPerRun> cells{};
+    std::array<int, kSegmentsPerRun> strides{};
+    for (int segment = 0; segment * kSegmentCells < job.cells; ++segment) {
+      cells[segment] = costs.cell(column + segment * kSegmentCells, row);
+      strides[segment] = CostVolume::padded_planes(*job.planes[segment]);
+    }
+    HWY_DYNAMIC_DISPATCH(fill_run)(job, cells, strides);
   });
   return costs;
 }
@@ -230,9 +271,9 @@ double sample_everywhere_dispatched(const ImagePyramid& image, long long samples
 
 MatchResult match_cell_by_cell(const SweepProblem& problem, Executor& executor) {
   MatchResult result(problem.grid.width, problem.grid.height);
-  for_each_row_of_a_block(problem, executor, [&](const RowJob& job, int column, int row) {
-    RowState state = empty_state();
-    HWY_DYNAMIC_DISPATCH(match_row)(job, state);
+  for_each_run(problem, executor, [&](const RunJob& job, int column, int row) {
+    RunState state = empty_state();
+    HWY_DYNAMIC_DISPATCH(match_run)(job, state);
     store(state, column, row, job.cells, result);
   });
   return result;

@@ -20,21 +20,26 @@ void continue_paths(const CellUpdate& cell) {
   const auto small = hn::Set(d, cell.small_penalty), beyond = hn::Set(d, kBeyondRange);
   for (int direction = 0; direction < kPathsPerPass; ++direction) {
     const Cost* HWY_RESTRICT before = cell.before[direction];
-    Cost* HWY_RESTRICT now = cell.now[direction];
     const auto least = hn::Set(d, before ? cell.least_before[direction] : Cost{0});
     const auto jump = hn::Add(least, hn::Set(d, cell.large_penalty));
     auto running_least = beyond;
-    for (int k = 0; k < cell.padded_planes; k += static_cast<int>(hn::Lanes(d))) {
-      auto value = hn::LoadU(d, cell.costs + k);
-      if (before) {
-        const auto neighbour = hn::Min(hn::LoadU(d, before + k - 1), hn::LoadU(d, before + k + 1));
-        const auto best = hn::Min(hn::Min(hn::LoadU(d, before + k), hn::Add(neighbour, small)), jump);
-        value = hn::Min(hn::Add(value, hn::Sub(best, least)), beyond);
+    for_each_stored_range(*cell.planes, [&](StoredRange range) HWY_ATTR {
+      const int padded = padded_planes(range.planes);
+      const std::ptrdiff_t plane = range.planes.first - cell.lowest_plane;
+      for (int i = 0; i < padded; i += static_cast<int>(hn::Lanes(d))) {
+        const std::ptrdiff_t k = plane + i;
+        auto value = hn::LoadU(d, cell.costs + range.slot + i);
+        if (before) {
+          const auto neighbour = hn::Min(hn::LoadU(d, before + k - 1), hn::LoadU(d, before + k + 1));
+          const auto best = hn::Min(hn::Min(hn::LoadU(d, before + k), hn::Add(neighbour, small)), jump);
+          value = hn::Min(hn::Add(value, hn::Sub(best, least)), beyond);
+        }
+        hn::StoreU(value, d, cell.now[direction] + k);
+        Cost* sum = cell.sums + range.slot + i;
+        hn::StoreU(hn::Min(hn::Add(hn::LoadU(d, sum), value), beyond), d, sum);
+        running_least = hn::Min(running_least, value);
       }
-      hn::StoreU(value, d, now + k);
-      hn::StoreU(hn::Min(hn::Add(hn::LoadU(d, cell.sums + k), value), beyond), d, cell.sums + k);
-      running_least = hn::Min(running_least, value);
-    }
+    });
     alignas(64) std::array<Cost, kVolumeLanes> lanes;
     hn::Store(running_least, d, lanes.data());
     cell.least_now[direction] = *std::min_element(lanes.begin(), lanes.begin() + hn::Lanes(d));
@@ -66,11 +71,12 @@ void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, Cos
     rows.begin_row();
     for (int j = 0; j < width; ++j) {
       const int column = from_south ? width - 1 - j : j;
-      const PlaneRange planes = costs.planes_at(column, row);
+      const PlaneSet& planes = costs.planes_at(column, row);
       CellUpdate cell;
+      cell.planes = &planes;
+      cell.lowest_plane = costs.all_planes().first;
       cell.costs = costs.cell(column, row);
       cell.sums = sums.cell(column, row);
-      cell.padded_planes = CostVolume::padded_planes(planes);
       cell.small_penalty = penalties.small;
       cell.large_penalty = penalties.large;
       rows.forget_outside(column, planes);
@@ -79,9 +85,9 @@ void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, Cos
         const bool exists = before_column >= 0 && before_column < width && before_row >= 0 && before_row < height &&
                             !costs.planes_at(before_column, before_row).empty();
         const bool same_row = kBefore[path][1] == 0;
-        cell.before[path] = exists ? rows.values(path, before_column, same_row, planes.first) : nullptr;
+        cell.before[path] = exists ? rows.values(path, before_column, same_row) : nullptr;
         cell.least_before[path] = exists ? rows.least(path, before_column, same_row) : Cost{0};
-        cell.now[path] = rows.values(path, column, true, planes.first);
+        cell.now[path] = rows.values(path, column, true);
       }
       if (planes.empty()) continue;
       HWY_DYNAMIC_DISPATCH(continue_paths)(cell);

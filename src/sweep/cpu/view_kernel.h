@@ -11,10 +11,11 @@
 
 namespace skysweep::sweep::cpu {
 
-constexpr int kSegmentCells = 16;  // cells between two knots of the projection
-constexpr int kSegmentsPerBlock = kBlockCells / kSegmentCells;
-constexpr int kKnotsBefore = 2;                // knots to the left of the first segment
-constexpr int kKnots = kSegmentsPerBlock + 5;  // and three to the right of the last one's first
+constexpr int kSegmentCells = kBlockCells;  // cells between two knots of the projection: those of one block
+constexpr int kSegmentsPerRun = 4;          // segments that share their knots
+constexpr int kRunCells = kSegmentsPerRun * kSegmentCells;
+constexpr int kKnotsBefore = 2;              // knots to the left of the first segment
+constexpr int kKnots = kSegmentsPerRun + 5;  // and three to the right of the last one's first
 
 struct LevelKernel {
   const std::uint16_t* pixels = nullptr;  // LuminanceLevel::values
@@ -36,25 +37,25 @@ struct ViewKernel {
 
 ViewKernel make_view_kernel(const View& view, const SweepOptions& options);
 
-// A row of at most kBlockCells cells within one block, with what is known about them so far.
-struct RowState {
-  alignas(64) std::array<float, kBlockCells> best;
-  alignas(64) std::array<float, kBlockCells> below;
-  alignas(64) std::array<float, kBlockCells> above;
-  alignas(64) std::array<float, kBlockCells> previous;  // cost at the plane before
-  alignas(64) std::array<float, kBlockCells> sum;
-  alignas(64) std::array<float, kBlockCells> seen;
-  alignas(64) std::array<std::int32_t, kBlockCells> plane;
+// A run of at most kRunCells cells of one row, with what is known about them so far.
+struct RunState {
+  alignas(64) std::array<float, kRunCells> best;
+  alignas(64) std::array<float, kRunCells> below;
+  alignas(64) std::array<float, kRunCells> above;
+  alignas(64) std::array<float, kRunCells> previous;  // cost at the plane before
+  alignas(64) std::array<float, kRunCells> sum;
+  alignas(64) std::array<float, kRunCells> seen;
+  alignas(64) std::array<std::int32_t, kRunCells> plane;
 };
 
-struct RowJob {
+struct RunJob {
   const std::vector<ViewKernel>* views = nullptr;
   const SweepOptions* options = nullptr;
   Vec2d first_cell;  // centre of the first cell, tile frame
   double cell_m = 1;
   double dz_m = 1;
   int cells = 0;
-  PlaneRange planes;
+  std::array<const PlaneSet*, kSegmentsPerRun> planes{};  // of each segment; null beyond the last
 };
 
 }  // namespace skysweep::sweep::cpu

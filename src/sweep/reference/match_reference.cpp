@@ -12,14 +12,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Matching cost of a cell at plane k; infinity outside the planes searched there.
 double cost_at(const SweepProblem& problem, int column, int row, int k) {
-  const PlaneRange planes = problem.planes_at(column, row);
-  if (k < planes.first || k > planes.last) return kInfinity;
+  if (!problem.planes_at(column, row).contains(k)) return kInfinity;
   const Vec2d cell = problem.grid.cell_center(column, row);
   return matching_cost(sample_views(problem, {cell.x, cell.y, k * problem.dz_m}, nullptr), problem.options);
 }
 
 void match_cell(const SweepProblem& problem, int column, int row, MatchResult& result) {
-  const PlaneRange planes = problem.planes_at(column, row);
+  const PlaneRange planes = problem.planes_at(column, row).hull();
   double best = kInfinity, sum = 0;
   int best_plane = 0, seen = 0;
   for (int k = planes.first; k <= planes.last; ++k) {
@@ -48,9 +47,11 @@ CostVolume match_costs(const SweepProblem& problem, Executor& executor) {
   CostVolume costs(problem, kWorstCost);
   executor.parallel_for(problem.grid.height, [&](int row) {
     for (int column = 0; column < problem.grid.width; ++column) {
-      const PlaneRange planes = problem.planes_at(column, row);
-      for (int k = planes.first; k <= planes.last; ++k)
-        costs.cell(column, row)[k - planes.first] = quantized_cost(cost_at(problem, column, row, k));
+      for_each_stored_range(problem.planes_at(column, row), [&](StoredRange range) {
+        Cost* cost = costs.cell(column, row) + range.slot;
+        for (int k = range.planes.first; k <= range.planes.last; ++k)
+          *cost++ = quantized_cost(cost_at(problem, column, row, k));
+      });
     }
   });
   return costs;

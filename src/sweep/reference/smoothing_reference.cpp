@@ -8,27 +8,37 @@
 namespace skysweep::sweep::reference {
 namespace {
 
-// Path costs of one cell; planes outside the cell's range do not exist.
+// Path costs of one cell; planes that the cell does not search do not exist.
 struct PathCosts {
-  PlaneRange planes;
-  std::vector<int> values;
+  const PlaneSet* planes = nullptr;
+  std::vector<int> values;  // of the planes, ascending
 
-  int at(int k) const { return k < planes.first || k > planes.last ? kBeyondRange : values[k - planes.first]; }
+  int at(int k) const {
+    int before = 0;
+    for (const PlaneRange& range : planes->ranges()) {
+      if (range.contains(k)) return values[before + k - range.first];
+      before += range.count();
+    }
+    return kBeyondRange;
+  }
   int least() const { return *std::min_element(values.begin(), values.end()); }
 };
 
 PathCosts continue_path(const CostVolume& costs, int column, int row, const PathCosts* before, Penalties penalties) {
-  PathCosts out{costs.planes_at(column, row), {}};
-  const Cost* cost = costs.cell(column, row);
-  for (int k = out.planes.first; k <= out.planes.last; ++k) {
-    int value = cost[k - out.planes.first];
-    if (before && !before->planes.empty()) {
-      const int step = std::min(before->at(k - 1), before->at(k + 1)) + penalties.small;
-      const int jump = before->least() + penalties.large;
-      value += std::min({before->at(k), step, jump}) - before->least();
+  PathCosts out{&costs.planes_at(column, row), {}};
+  const bool begins = !before || before->planes->empty();
+  for_each_stored_range(*out.planes, [&](StoredRange range) {
+    const Cost* cost = costs.cell(column, row) + range.slot;
+    for (int k = range.planes.first; k <= range.planes.last; ++k) {
+      int value = *cost++;
+      if (!begins) {
+        const int step = std::min(before->at(k - 1), before->at(k + 1)) + penalties.small;
+        const int jump = before->least() + penalties.large;
+        value += std::min({before->at(k), step, jump}) - before->least();
+      }
+      out.values.push_back(value);
     }
-    out.values.push_back(value);
-  }
+  });
   return out;
 }
 
@@ -37,8 +47,11 @@ void add_path(const CostVolume& costs, int column, int row, int dx, int dy, Pena
   for (bool first = true; column >= 0 && column < costs.width() && row >= 0 && row < costs.height();
        column += dx, row += dy, first = false) {
     before = continue_path(costs, column, row, first ? nullptr : &before, penalties);
-    Cost* sum = sums.cell(column, row);
-    for (std::size_t i = 0; i < before.values.size(); ++i) sum[i] += before.values[i];
+    auto value = before.values.begin();
+    for_each_stored_range(*before.planes, [&](StoredRange range) {
+      Cost* sum = sums.cell(column, row) + range.slot;
+      for (int i = 0; i < range.planes.count(); ++i) sum[i] += *value++;
+    });
   }
 }
 
