@@ -55,6 +55,10 @@ double share_with_height(const Array2d<float>& dem) {
   return static_cast<double>(known) / static_cast<double>(dem.size());
 }
 
+std::uint64_t count_of(const Array2d<std::uint8_t>& mask, tiles::CellSource source) {
+  return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), static_cast<std::uint8_t>(source)));
+}
+
 }  // namespace
 
 PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const ImageRecord*>& candidates,
@@ -91,6 +95,8 @@ TileOutcome compute_tile(tiles::TileKey key, const std::vector<const ImageRecord
   outcome.views = prepared.view_names;
   outcome.heights = prepared.heights;
   outcome.valid_share = share_with_height(outcome.tile.dem);
+  outcome.cells_measured = count_of(outcome.tile.mask, tiles::CellSource::measured);
+  outcome.cells_filled = count_of(outcome.tile.mask, tiles::CellSource::filled);
   outcome.samples = result.samples;
   return outcome;
 }

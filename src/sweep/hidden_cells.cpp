@@ -5,6 +5,9 @@
 #include <limits>
 
 namespace skysweep::sweep {
+namespace {
+constexpr int kShownPerSeen = 2;
+}
 
 bool is_hidden(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z) {
   const Vec2d cell = problem.grid.cell_center(column, row);
@@ -16,7 +19,7 @@ bool is_hidden(const SweepProblem& problem, const SurfaceVisibility& surface, in
     seen += surface.sees(view.camera.pose().center, column, row, z);
     if (seen >= problem.options.min_views) return false;
   }
-  return shown >= problem.options.min_views;
+  return shown >= kShownPerSeen * problem.options.min_views;
 }
 
 void drop_hidden_heights(const SweepProblem& problem, Executor& executor, Heights& heights) {

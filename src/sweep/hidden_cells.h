@@ -11,8 +11,9 @@ namespace skysweep::sweep {
 // How far the surface must rise above a ray to hide what is behind, in plane steps: more than heights scatter.
 constexpr double kOcclusionTolerancePlanes = 3;
 
-// Whether at least min_views views (SweepOptions) show the cell at height z, and fewer than that see it past `surface`:
-// no place of that height can be measured there.
+// Whether fewer than min_views views (SweepOptions) see the cell at height z past `surface`, so that no place of that
+// height can be measured there, although at least twice as many show it: where fewer do, at the border of the map,
+// heights are not good enough to say that one hides another.
 bool is_hidden(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z);
 
 // Takes back heights that are hidden by the other heights: what the views agree on there is not that place. All are
