@@ -7,13 +7,17 @@
 #include <limits>
 
 #include "sweep/hidden_cells.h"
+#include "sweep/small_patches.h"
 
 namespace skysweep::sweep {
 namespace {
 
+constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 // Heights of one surface differ by no more than the tolerance and this slope times their distance.
 constexpr double kSteepestBackground = 0.5;
 constexpr double kSameSurfacePlanes = 6;
+// A single low height may be a false match: nothing is filled from it.
+constexpr std::size_t kFewestAgreeing = 2;
 
 struct Direction {
   int x, y;
@@ -52,6 +56,19 @@ double distance_weighted_mean(const std::vector<Met>& all) {
   return sum / weights;
 }
 
+void close_small_gaps(int close_gap_cells, const Background& background, Array2d<float>& height_m,
+                      Array2d<std::uint8_t>& filled) {
+  Array2d<float> gaps(height_m.width(), height_m.height());
+  std::transform(height_m.begin(), height_m.end(), gaps.begin(),
+                 [](float z) { return std::isnan(z) ? 0.0f : kNoData; });
+  for_each_small_patch(gaps, 0, close_gap_cells, [&](const Patch& gap) {
+    for (const auto [column, row] : gap) {
+      height_m(column, row) = background.height_at(column, row);
+      filled(column, row) = !std::isnan(height_m(column, row));
+    }
+  });
+}
+
 }  // namespace
 
 Background::Background(const Array2d<float>& height_m, double cell_m, double tolerance_m, Executor& executor)
@@ -71,11 +88,12 @@ float Background::height_at(int column, int row) const {
     const Vec2d place{x * cell_m_, y * cell_m_};
     met.push_back({height_m_(column + x, row + y), norm(place), place});
   }
-  if (met.empty()) return std::numeric_limits<float>::quiet_NaN();
+  if (met.empty()) return kNoData;
   const Met lowest = *std::min_element(met.begin(), met.end(), [](const Met& a, const Met& b) { return a.z < b.z; });
   std::erase_if(met, [&](const Met& m) {
     return m.z - lowest.z > tolerance_m_ + kSteepestBackground * norm(m.place_m - lowest.place_m);
   });
+  if (met.size() < kFewestAgreeing) return kNoData;
   return static_cast<float>(distance_weighted_mean(met));
 }
 
@@ -94,6 +112,7 @@ Array2d<std::uint8_t> fill_hidden_cells(const SweepProblem& problem, Executor& e
       filled(column, row) = 1;
     }
   });
+  close_small_gaps(problem.options.close_gap_cells, background, heights.height_m, filled);
   return filled;
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/hidden_cells.h"
 
-#include <cmath>
-#include <limits>
-
 namespace skysweep::sweep {
 namespace {
 constexpr int kShownPerSeen = 2;
@@ -20,19 +17,6 @@ bool is_hidden(const SweepProblem& problem, const SurfaceVisibility& surface, in
     if (seen >= problem.options.min_views) return false;
   }
   return shown >= kShownPerSeen * problem.options.min_views;
-}
-
-void drop_hidden_heights(const SweepProblem& problem, Executor& executor, Heights& heights) {
-  constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
-  const Array2d<float> before = heights.height_m;
-  const SurfaceVisibility surface(problem.grid, before, kOcclusionTolerancePlanes * problem.dz_m);
-  executor.parallel_for(problem.grid.height, [&](int row) {
-    for (int column = 0; column < problem.grid.width; ++column) {
-      const float z = before(column, row);
-      if (std::isnan(z) || !is_hidden(problem, surface, column, row, z)) continue;
-      heights.height_m(column, row) = heights.sigma_m(column, row) = kNoData;
-    }
-  });
 }
 
 }  // namespace skysweep::sweep

@@ -2,8 +2,7 @@
 // Cells that photographs show, but the surface hides from them.
 #pragma once
 
-#include "core/executor.h"
-#include "sweep/heights.h"
+#include "sweep/sweep_problem.h"
 #include "sweep/visibility.h"
 
 namespace skysweep::sweep {
@@ -15,9 +14,5 @@ constexpr double kOcclusionTolerancePlanes = 3;
 // height can be measured there, although at least twice as many show it: where fewer do, at the border of the map,
 // heights are not good enough to say that one hides another.
 bool is_hidden(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z);
-
-// Takes back heights that are hidden by the other heights: what the views agree on there is not that place. All are
-// judged against the heights as they come in. Their standard deviations become NaN, too.
-void drop_hidden_heights(const SweepProblem& problem, Executor& executor, Heights& heights);
 
 }  // namespace skysweep::sweep

@@ -4,7 +4,6 @@
 #include "sweep/coarse_to_fine.h"
 #include "sweep/filling.h"
 #include "sweep/heights.h"
-#include "sweep/hidden_cells.h"
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
 #include "sweep/speckles.h"
@@ -34,7 +33,6 @@ SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& 
   Heights heights = heights_from_matches(problem, matches);
   drop_heights_without_evidence(problem, matches, executor, heights);
   drop_speckles(problem, heights);
-  drop_hidden_heights(problem, executor, heights);
   result.filled = fill_hidden_cells(problem, executor, heights);
   result.height_m = std::move(heights.height_m);
   result.sigma_m = std::move(heights.sigma_m);

@@ -13,6 +13,6 @@ namespace skysweep::sweep {
 void drop_speckles(const SweepProblem& problem, Heights& heights);
 
 constexpr double kSpecklePatchPlanes = 8, kLevelPlanes = 2;
-constexpr int kLevelShare = 8;
+constexpr int kLevelShare = 4;
 
 }  // namespace skysweep::sweep

@@ -178,27 +178,43 @@ TEST_F(Filling, filled_cells_have_the_colour_of_the_one_view_that_sees_them) {
   EXPECT_EQ(result.color(42, 40).a, 255);
 }
 
-TEST_F(Filling, heights_that_others_hide_are_taken_back) {
+TEST_F(Filling, small_gaps_are_closed_when_asked_large_ones_are_not) {
   look_mostly_from_the_west();
-  Heights heights = heights_of(building, [](double, double) { return true; });
-  drop_hidden_heights(problem_, executor_, heights);
-  EXPECT_TRUE(std::isnan(heights.height_m(42, 40)));  // 0.25 m from the wall
-  EXPECT_TRUE(std::isnan(heights.sigma_m(42, 40)));
-  EXPECT_EQ(heights.height_m(75, 40), 0);   // 3.55 m from it: past the shadow
-  EXPECT_EQ(heights.height_m(39, 40), 10);  // the roof
-  EXPECT_FLOAT_EQ(heights.sigma_m(39, 40), 0.02f);
+  // Gaps of about 50 and 12 cells in a roof of 10 m.
+  const auto known = [](double x, double y) { return std::hypot(x + 2, y) > 0.4 && std::hypot(x + 1, y - 2) > 0.2; };
+  const auto roof = [](double x, double) { return 10 + 0.1 * x; };
+  Heights untouched = heights_of(roof, known), small = untouched, both = untouched;
+  EXPECT_EQ(compare(untouched, fill(untouched), roof).cells, 0);
+  problem_.options.close_gap_cells = 30;
+  const Filled one = compare(small, fill(small), roof);
+  EXPECT_EQ(one.cells, 12);
+  EXPECT_LT(one.largest_error_m, 0.01);
+  problem_.options.close_gap_cells = 100;
+  EXPECT_GT(compare(both, fill(both), roof).cells, 12 + 30);
+}
+
+TEST_F(Filling, a_wrong_size_of_gaps_is_refused_with_a_sentence) {
+  for (const int cells : {-1, 65537}) {
+    problem_.options.close_gap_cells = cells;
+    const auto sentence = problem_.options.problem();
+    ASSERT_TRUE(sentence) << cells;
+    EXPECT_NE(sentence->find("close_gap_cells must lie between 0 (off) and 65536"), std::string::npos);
+  }
 }
 
 TEST(Background, is_the_distance_weighted_mean_of_the_lower_side) {
-  Array2d<float> surface(9, 1, kNaN);
+  // The cell at (2, 4) has known ones 2 cells to the west, 6 to the east and 4 to the north.
+  Array2d<float> surface(9, 9, kNaN);
   SerialExecutor executor;
-  surface(0, 0) = 1;
-  surface(8, 0) = 1.4f;
-  EXPECT_FLOAT_EQ(Background(surface, 1, 0.1, executor).height_at(2, 0), 1.1f);
-  surface(8, 0) = 6;  // steeper than half the distance: the other side of a step
-  EXPECT_FLOAT_EQ(Background(surface, 1, 0.1, executor).height_at(2, 0), 1);
-  surface(0, 0) = surface(8, 0) = kNaN;
-  EXPECT_TRUE(std::isnan(Background(surface, 1, 0.1, executor).height_at(2, 0)));
+  const auto height = [&] { return Background(surface, 1, 0.1, executor).height_at(2, 4); };
+  surface(0, 4) = 1;
+  EXPECT_TRUE(std::isnan(height())) << "one height alone may be wrong";
+  surface(8, 4) = 1.4f;
+  EXPECT_FLOAT_EQ(height(), 1.1f);
+  surface(2, 0) = 6;  // steeper than half the distance: the other side of a step
+  EXPECT_FLOAT_EQ(height(), 1.1f);
+  surface(0, 4) = -9;  // lower than all others, and alone
+  EXPECT_TRUE(std::isnan(height()));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_F(Speckles, a_long_wall_one_cell_thick_stays) {
 }
 
 TEST_F(Speckles, uneven_patches_of_some_size_stay) {
-  put(10, 12, 8, 8, uneven);
+  put(10, 12, 8, 4, uneven);
   EXPECT_EQ(taken_back(0, 0, 40, 40), 0);
 }
 
