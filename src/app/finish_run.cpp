@@ -84,6 +84,7 @@ nlohmann::json report_of(const pipeline::RunSummary& summary, double seconds) {
             {"kept", summary.tiles_kept},
             {"empty", summary.tiles_empty},
             {"parents_written", summary.parents_written}}},
+          {"cells", {{"measured", summary.cells_measured}, {"filled", summary.cells_filled}}},
           {"samples", summary.samples},
           {"photographs_decoded", summary.photographs_decoded},
           {"seconds", seconds},

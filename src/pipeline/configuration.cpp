@@ -113,6 +113,9 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("few_views_penalty", o.few_views_penalty);
   key("max_cost", o.max_cost);
   key("max_cost_to_mean", o.max_cost_to_mean);
+  key("speckle_cells", o.speckle_cells);
+  key("fill", o.fill);
+  key("close_gap_cells", o.close_gap_cells);
   key("plane_step_px", o.plane_step_px);
   key("planar_fallback", o.planar_fallback);
 }

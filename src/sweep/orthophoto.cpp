@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweep/hidden_cells.h"
 #include "sweep/view_costs.h"
 #include "sweep/visibility.h"
 
 namespace skysweep::sweep {
 namespace {
-
-// How far the surface must rise above a ray to hide what is behind, in plane steps: more than heights scatter.
-constexpr double kOcclusionTolerancePlanes = 3;
 
 struct Colored {
   int view = -1;
