@@ -103,19 +103,20 @@ void photograph_copied(benchmark::State& state) {
 }
 BENCHMARK(photograph_copied)->Unit(benchmark::kMillisecond);
 
-void photograph_prepared(benchmark::State& state, int normalization_radius_px) {
+void photograph_prepared(benchmark::State& state, Normalization normalization) {
   const Array2d<Rgb8> image = photograph();
   double mean = 0;
   for (auto _ : state) {
-    const ImagePyramid pyramid(image, normalization_radius_px);
+    const ImagePyramid pyramid(image, normalization);
     mean = pyramid.sample_luminance({960, 540}, pyramid.levels() - 1);
   }
   if (!(mean > 100 && mean < 150)) state.SkipWithError("the whole photograph's mean is about 125");
   set_rate(state, "pixels/s", static_cast<double>(image.size()));
 }
-BENCHMARK_CAPTURE(photograph_prepared, as_photographed, 0)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(photograph_prepared, normalised_within_2_px, 2)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(photograph_prepared, normalised_within_5_px, 5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(photograph_prepared, as_photographed, Normalization{})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(photograph_prepared, normalised_within_5_px, Normalization{5, 0})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(photograph_prepared, normalised_by_similar_within_2_px, Normalization{2, 48})
+    ->Unit(benchmark::kMillisecond);
 
 // Views counted at all planes of every 8th cell.
 template <typename Count>

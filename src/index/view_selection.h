@@ -13,7 +13,7 @@
 namespace skysweep::index {
 
 struct ViewSelectionOptions {
-  int views_per_place = 8;            // N: every part of the tile is shown this often, where it can be
+  int views_per_place = 10;           // N: every part of the tile is shown this often, where it can be
   int max_views = 32;                 // and at most so many photographs serve the whole tile
   double max_off_nadir_deg = 40;      // steeper rays than this from nadir at a point do not count for the point
   double min_baseline_ratio = 0.05;   // views closer together than this share of the depth add no height information

@@ -10,8 +10,6 @@
 
 namespace skysweep::sweep {
 
-namespace {
-
 MatchResult search(const SweepProblem& problem, Backend backend, Executor& executor, double& samples) {
   if (problem.options.coarse_levels == 0) {
     samples += sample_count(problem);
@@ -23,8 +21,6 @@ MatchResult search(const SweepProblem& problem, Backend backend, Executor& execu
   matches.mean_cost = std::move(narrowed.mean_cost);
   return matches;
 }
-
-}  // namespace
 
 SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor) {
   problem.check();

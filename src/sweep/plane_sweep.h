@@ -9,6 +9,10 @@
 
 namespace skysweep::sweep {
 
+// The search alone, from coarse to fine if options.coarse_levels says so, else everywhere at once. The samples it takes
+// are added to `samples`.
+MatchResult search(const SweepProblem& problem, Backend backend, Executor& executor, double& samples);
+
 SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor);
 
 }  // namespace skysweep::sweep

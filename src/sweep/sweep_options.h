@@ -28,19 +28,19 @@ struct SweepOptions {
   // Support windows of 2^min x 2^min to 2^max x 2^max pixels: the matching cost is the sum over these mipmap levels.
   // Larger windows steady the match on weak texture and eat roof edges.
   int window_level_min = 0;
-  int window_level_max = 3;
+  int window_level_max = 1;
 
   // Luminance is normalised to zero mean and unit deviation (20 grey levels) within so many pixels around each, so that
   // photographs of different exposure and surfaces of different contrast compare; 0: as photographed, the classic cost.
-  int normalization_radius_px = 5;
+  int normalization_radius_px = 2;
 
   // Only pixels that differ by at most so many grey levels from the one in the middle count for its normalisation: what
   // lies beyond an edge does not. 0: all count.
-  int normalization_tolerance = 0;
+  int normalization_tolerance = 48;
 
   // Coarser grids that are searched first, each with cells twice as large as the next: the first everywhere, the others
   // and the fine one only near what it found; 0: everywhere at once (sweep/coarse_to_fine.h).
-  int coarse_levels = 0;
+  int coarse_levels = 2;
 
   // A coarse height is followed as well if the cost of its minimum is at most so far above the best one's, grey levels.
   double rival_tolerance = 1;
@@ -50,7 +50,7 @@ struct SweepOptions {
   int visibility_passes = 1;
 
   // A height is sure when the next best of its cell costs at least so much more, grey levels.
-  double sure_excess = 4;
+  double sure_excess = 5;
 
   // Smoothing follows the slopes that the finest of the coarser grids found where it is sure.
   bool follow_slopes = true;
@@ -61,20 +61,20 @@ struct SweepOptions {
 
   // What a height costs that fewer than min_views views see past the sure surface, grey levels: neither likely nor
   // ruled out.
-  double hidden_cost = 8;
+  double hidden_cost = 6;
 
   Aggregation aggregation = Aggregation::consensus;
 
   // How many of the views that show a place make up its consensus, at least three of them: fewer find what few see,
   // more measure it better.
-  double consensus_share = 0.5;
+  double consensus_share = 0.6;
 
   Smoothing smoothing = Smoothing::semi_global;
 
   // Prices of height steps between neighbouring cells, grey levels of matching cost: P1 for one plane, P2 for more.
   // Higher ones fill weak texture and swallow thin things.
-  double small_step_penalty = 1;
-  double large_step_penalty = 8;
+  double small_step_penalty = 2;
+  double large_step_penalty = 12;
 
   // With smoothing: the height between planes is steadied by the costs of the cells up to this many columns and rows
   // away that lie on the same surface (sweep/sub_plane.h); 0: each cell from its own path sums, which locks heights to
@@ -89,14 +89,14 @@ struct SweepOptions {
 
   // Added to the cost of a sample, divided by the number of views that show it, grey levels: of few views some agree by
   // chance, and without this a plane that fewer views can show would win for that reason alone.
-  double few_views_penalty = 6;
+  double few_views_penalty = 3;
 
   // Mean absolute difference in grey levels above which the best plane is not believed.
   double max_cost = 40;
 
   // The cost of the best plane must stay below the mean over all planes searched by this factor, or nothing
   // distinguishes it: 1 believes everything.
-  double max_cost_to_mean = 0.9;
+  double max_cost_to_mean = 0.95;
 
   // Uneven patches of heights smaller than this that stand apart from their surroundings are not believed
   // (sweep/speckles.h): more removes more false matches, and small things with them. 0: all are believed.
@@ -108,7 +108,7 @@ struct SweepOptions {
 
   // With fill: remaining gaps of fewer cells than this are filled, too, although enough views see them and found no
   // height to believe there. 0: they stay empty.
-  int close_gap_cells = 0;
+  int close_gap_cells = 128;
 
   // Parallax of one plane step as a share of a pixel: how dz is derived when it is not given (0.6 loses nothing after
   // sub-plane fitting; finer costs time).

@@ -23,6 +23,7 @@ class Filling : public testing::Test {
   Filling() {
     problem_.grid = {80, 80, 0.1, {-4, 4}};
     problem_.dz_m = 0.05;
+    problem_.options.close_gap_cells = 0;
     problem_.search_everywhere({-100, 400});
   }
 

@@ -36,18 +36,18 @@ TEST(CoarseSurface, finds_the_ground_in_everything_below_the_cameras) {
 
 TEST(CoarseSurface, blocks_search_near_their_own_surface) {
   SweepProblem problem;
-  problem.grid = {192, 64, 0.1, {0, 0}};
+  problem.grid = {384, 64, 0.1, {0, 0}};
   problem.dz_m = 0.1;
-  Array2d<float> surface(24, 8, 2.0f);
+  Array2d<float> surface(48, 8, 2.0f);
   for (int y = 0; y < 8; ++y)
-    for (int x = 20; x < 24; ++x) surface(x, y) = 12;
+    for (int x = 44; x < 48; ++x) surface(x, y) = 12;
   const std::optional<HeightRange> whole = search_near(surface, problem);
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->z_high, 12);
   const auto highest = [&](int block) { return problem.block_planes(block, 0).hull().last * 0.1; };
-  EXPECT_LT(highest(0), 5) << "far from the step";
-  EXPECT_LT(highest(7), 5);
-  EXPECT_GT(highest(8), 12);
+  EXPECT_LT(highest(0), 8) << "far from the step";
+  EXPECT_LT(highest(11), 8);
+  EXPECT_GT(highest(12), 12);
 }
 
 TEST(CoarseSurface, of_photographs_without_texture_is_empty_and_nothing_is_searched) {

@@ -45,7 +45,8 @@ TEST(Heights, nothing_is_known_without_a_distinct_minimum) {
       << "at the end of the range";
   EXPECT_TRUE(std::isnan(heights_from_matches(one_cell(1), match(0, 0, 0)).height_m(0, 0))) << "flat";
   EXPECT_TRUE(std::isnan(heights_from_matches(one_cell(1), match(0, 0, 4, 50)).height_m(0, 0))) << "above max_cost";
-  EXPECT_TRUE(std::isnan(heights_from_matches(one_cell(1), match(0, 0, 4, 19, 20)).height_m(0, 0))) << "as bad as any";
+  EXPECT_TRUE(std::isnan(heights_from_matches(one_cell(1), match(0, 0, 4, 19.5, 20)).height_m(0, 0)))
+      << "as bad as any";
   EXPECT_FALSE(std::isnan(heights_from_matches(one_cell(1), match(0, 0, 4)).height_m(0, 0)));
 }
 
