@@ -31,7 +31,7 @@ GLuint compiled(const std::string& name, const std::string& text) {
   if (done) return shader;
   const std::string log = log_of(shader, glGetShaderiv, glGetShaderInfoLog);
   glDeleteShader(shader);
-  throw failure("The GPU program " + name + " does not compile: " + log);
+  throw DeviceError(Trouble::refused, "The GPU program " + name + " does not compile: " + log);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ Program::Program(Device& device, const std::string& name,
   if (!done) {
     const std::string log = log_of(id_, glGetProgramiv, glGetProgramInfoLog);
     glDeleteProgram(id_);
-    throw failure("The GPU program " + name + " does not link: " + log);
+    throw DeviceError(Trouble::refused, "The GPU program " + name + " does not link: " + log);
   }
   device.check("compiling " + name);
 }

@@ -15,7 +15,7 @@ namespace skysweep::gpu {
 class Program {
  public:
   // `source`: GLSL without its #version line, which is 4.50; `definitions` become macros before it, so that loops have
-  // constant lengths. Throws Error(failed) with the compiler's log, which names `name`.
+  // constant lengths. Throws DeviceError(refused) with the compiler's log, which names `name`.
   Program(Device& device, const std::string& name, const std::vector<std::pair<std::string, std::string>>& definitions,
           const std::string& source);
   ~Program();

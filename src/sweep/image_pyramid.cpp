@@ -2,6 +2,7 @@
 #include "sweep/image_pyramid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "sweep/local_normalization.h"
@@ -64,11 +65,16 @@ Tap tap_at(double position, int size) {
   return {std::clamp(static_cast<int>(floor), -1, size - 1), shifted - floor};
 }
 
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 double mix(double a, double b, double weight) { return a + weight * (b - a); }
 
 }  // namespace
 
-ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px) {
+ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px) : id_(next_id()) {
   SKY_CHECK(!photograph.empty());
   Array2d<std::uint16_t> grey = luminance_of(photograph);
   color_.push_back(std::move(photograph));

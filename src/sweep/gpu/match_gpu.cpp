@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/gpu/match_gpu.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "sweep/bands.h"
+#include "sweep/cpu/smoothing_cpu.h"
+#include "sweep/gpu/engine.h"
+#include "sweep/gpu/volume_layout.h"
+#include "sweep/penalties.h"
+#include "sweep/sampling_level.h"
+
+namespace skysweep::sweep::on_gpu {
+namespace {
+
+using skysweep::gpu::Buffer;
+using skysweep::gpu::Current;
+using skysweep::gpu::DeviceError;
+using skysweep::gpu::Program;
+using skysweep::gpu::Trouble;
+using Definitions = std::vector<std::pair<std::string, std::string>>;
+
+constexpr int kMatchIntegers = 7, kWinnerNumbers = 6;  // what the programs write for each cell
+constexpr float kNoCost = 1e30f, kNoFraction = 1e30f;  // and how they say that there is nothing
+
+// Runs `work` with the device current. A device that is lost meanwhile is not used again.
+template <typename Work>
+auto on_device(Work work) {
+  const std::shared_ptr<Engine> used = engine();
+  try {
+    const Current current(used->device());
+    return work(*used);
+  } catch (const DeviceError& error) {
+    if (error.trouble() == Trouble::lost) abandon(used);
+    throw;
+  }
+}
+
+// costs.glsl: Geometry.
+std::vector<double> geometry_of(const SweepProblem& problem) {
+  const Grid& grid = problem.grid;
+  std::vector<double> numbers = {grid.north_west_corner.x, grid.north_west_corner.y, grid.cell_m, problem.dz_m};
+  for (const View& view : problem.views) {
+    const camera::CameraModel& m = view.camera.model();
+    const camera::Pose& pose = view.camera.pose();
+    const camera::Distortion& d = m.distortion;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) numbers.push_back(pose.cam_from_world(i, j));
+    numbers.insert(numbers.end(), {pose.center.x, pose.center.y, pose.center.z, m.fx_px, m.fy_px, m.cx_px, m.cy_px,
+                                   camera::fold_radius_squared(d), d.k1, d.k2, d.p1, d.p2, d.k3});
+  }
+  return numbers;
+}
+
+int window_levels(const SweepOptions& options) { return options.window_level_max - options.window_level_min + 1; }
+
+// costs.glsl: Photographs.
+std::vector<int> photographs_of(const SweepProblem& problem, const std::vector<int>& layers) {
+  std::vector<int> numbers;
+  for (std::size_t v = 0; v < problem.views.size(); ++v) {
+    const View& view = problem.views[v];
+    const camera::CameraModel& model = view.camera.model();
+    numbers.insert(numbers.end(), {model.width_px, model.height_px, layers[v], model.distortion.none() ? 0 : 1});
+    const LayerLayout layout = layer_layout(*view.image);
+    for (int window = problem.options.window_level_min; window <= problem.options.window_level_max; ++window) {
+      const int level = sampling_level(view, window);
+      const LuminanceLevel& image = view.image->luminance(level);
+      numbers.insert(numbers.end(), {layout.levels[level].x, layout.levels[level].y, image.width, image.height, level});
+    }
+  }
+  return numbers;
+}
+
+const char* number_of(Aggregation aggregation) {
+  switch (aggregation) {
+    case Aggregation::all_views: return "0";
+    case Aggregation::better_half: return "1";
+    case Aggregation::consensus: return "2";
+  }
+  return "";
+}
+
+// A program that follows costs.glsl, ready but for its own uniforms.
+Program& cost_program(Engine& engine, const SweepProblem& problem, const std::string& file) {
+  const SweepOptions& options = problem.options;
+  Program& program = engine.program({"costs.glsl", file}, {{"VIEWS", std::to_string(problem.views.size())},
+                                                           {"LEVELS", std::to_string(window_levels(options))},
+                                                           {"AGGREGATION", number_of(options.aggregation)},
+                                                           {"MIN_VIEWS", std::to_string(options.min_views)}});
+  program.set("texel_width", 1.0f / static_cast<float>(engine.photographs().texture().width()));
+  program.set("texel_height", 1.0f / static_cast<float>(engine.photographs().texture().height()));
+  program.set("few_views_penalty", static_cast<float>(options.few_views_penalty));
+  if (options.aggregation == Aggregation::consensus)
+    program.set("consensus_share", static_cast<float>(options.consensus_share));
+  return program;
+}
+
+void set_grid(const SweepProblem& problem, Program& program) {
+  program.set("blocks_across", problem.block_planes.width());
+  program.set("width", problem.grid.width);
+  program.set("height", problem.grid.height);
+}
+
+// The layout of a problem's volume on the device.
+struct Volume {
+  Volume(Engine& engine, const SweepProblem& problem)
+      : layout(problem),
+        blocks(engine.device(), layout.blocks),
+        slot_planes(engine.device(), layout.slot_planes),
+        ranges(engine.device(), layout.ranges) {}
+  std::size_t bytes() const { return layout.elements * sizeof(Cost); }
+
+  VolumeLayout layout;
+  Buffer blocks, slot_planes, ranges;
+};
+
+// Too few views for any cost: there is nothing to compile a program for.
+bool nothing_to_match(const SweepProblem& problem) {
+  return static_cast<int>(problem.views.size()) < problem.options.min_views;
+}
+
+Buffer& compute_costs(Engine& engine, const SweepProblem& problem, const Volume& volume) {
+  Buffer& costs = engine.scratch(Scratch::costs, volume.bytes());
+  const std::vector<int> layers = engine.photographs().layers_of(problem.views);
+  const Buffer geometry(engine.device(), geometry_of(problem));
+  const Buffer photographs(engine.device(), photographs_of(problem, layers));
+  const Buffer items(engine.device(), volume.layout.items);
+  Program& program = cost_program(engine, problem, "match_costs.comp");
+  set_grid(problem, program);
+  program.set("item_count", static_cast<int>(volume.layout.items.size()));
+  program.run(static_cast<std::int64_t>(volume.layout.items.size()),
+              {&geometry, &photographs, &items, &volume.blocks, &costs}, &engine.photographs().texture());
+  return costs;
+}
+
+// Planes from the lowest to the highest of all, rounded up so that few programs serve all problems.
+int planes_in_shared_memory(const SweepProblem& problem) {
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(64, problem.all_planes().count()))));
+}
+
+bool fits_shared_memory(Engine& engine, const SweepProblem& problem) {
+  return (2 * (planes_in_shared_memory(problem) + 2) + 3) * static_cast<int>(sizeof(int)) <=
+         engine.device().limits().shared_memory_bytes;
+}
+
+Buffer& compute_sums(Engine& engine, const SweepProblem& problem, const Volume& volume, const Buffer& costs) {
+  Buffer& sums = engine.scratch(Scratch::sums, volume.bytes());
+  sums.fill(0);
+  Program& program = engine.program({"smooth.comp"}, {{"PLANES", std::to_string(planes_in_shared_memory(problem))},
+                                                      {"THREADS", "64"}});
+  set_grid(problem, program);
+  const Penalties penalties = penalties_of(problem.options);
+  program.set("lowest_plane", problem.all_planes().first);
+  program.set("small_penalty", penalties.small);
+  program.set("large_penalty", penalties.large);
+  const std::int64_t width = problem.grid.width, height = problem.grid.height;
+  program.run(2 * height + 2 * width + 4 * (width + height - 1),
+              {&volume.blocks, &volume.slot_planes, &costs, &sums});
+  return sums;
+}
+
+void run_by_blocks(const SweepProblem& problem, Program& program, const std::vector<const Buffer*>& buffers) {
+  set_grid(problem, program);
+  program.run(static_cast<std::int64_t>(problem.block_planes.size()), buffers);
+}
+
+float cost_from(std::int32_t bits) {
+  const float value = std::bit_cast<float>(bits);
+  return value < kNoCost ? value : std::numeric_limits<float>::infinity();
+}
+
+float fraction_from(std::int32_t bits) {
+  const float value = std::bit_cast<float>(bits);
+  return value < kNoFraction ? value : std::numeric_limits<float>::quiet_NaN();
+}
+
+MatchResult matches_from(const SweepProblem& problem, const Buffer& buffer) {
+  MatchResult result(problem.grid.width, problem.grid.height);
+  std::vector<std::int32_t> numbers(result.plane.size() * kMatchIntegers);
+  buffer.read(numbers.data(), numbers.size() * sizeof(std::int32_t));
+  for (std::size_t i = 0; i < result.plane.size(); ++i) {
+    const std::int32_t* of_cell = numbers.data() + i * kMatchIntegers;
+    result.plane.data()[i] = of_cell[0];
+    result.cost.data()[i] = cost_from(of_cell[1]);
+    result.mean_cost.data()[i] = cost_from(of_cell[2]);
+    result.fraction.data()[i] = fraction_from(of_cell[3]);
+    result.bend.data()[i] = fraction_from(of_cell[4]);
+    result.rival_plane.data()[i] = of_cell[5];
+    result.rival_excess.data()[i] = cost_from(of_cell[6]);
+  }
+  return result;
+}
+
+MatchResult match_part(Engine& engine, const SweepProblem& problem) {
+  const Volume volume(engine, problem);
+  if (volume.layout.elements == 0) return {problem.grid.width, problem.grid.height};
+  if (!fits_shared_memory(engine, problem))
+    throw DeviceError(Trouble::out_of_memory, "The planes of a path do not fit into the GPU's shared memory.");
+  const Buffer& costs = compute_costs(engine, problem, volume);
+  const Buffer& sums = compute_sums(engine, problem, volume, costs);
+  const std::size_t cells = static_cast<std::size_t>(problem.grid.width) * problem.grid.height;
+  Buffer& matches = engine.scratch(Scratch::matches, cells * kMatchIntegers * sizeof(std::int32_t));
+  run_by_blocks(problem, engine.program({"best_planes.comp"}, {}),
+                {&volume.blocks, &volume.slot_planes, &costs, &sums, &matches});
+  if (problem.options.refinement_radius_cells > 0) {
+    Program& refine = engine.program({"refine.comp"}, {});
+    refine.set("radius", problem.options.refinement_radius_cells);
+    run_by_blocks(problem, refine, {&volume.blocks, &volume.ranges, &costs, &matches});
+  }
+  return matches_from(problem, matches);
+}
+
+MatchResult winners_from(const SweepProblem& problem, const Buffer& buffer) {
+  MatchResult result(problem.grid.width, problem.grid.height);
+  std::vector<std::int32_t> numbers(result.plane.size() * kWinnerNumbers);
+  buffer.read(numbers.data(), numbers.size() * sizeof(std::int32_t));
+  for (std::size_t i = 0; i < result.plane.size(); ++i) {
+    const std::int32_t* of_cell = numbers.data() + i * kWinnerNumbers;
+    const float best = cost_from(of_cell[0]), sum = std::bit_cast<float>(of_cell[3]),
+                seen = std::bit_cast<float>(of_cell[4]);
+    if (!std::isfinite(best)) continue;
+    const Parabola parabola = parabola_through(cost_from(of_cell[1]), best, cost_from(of_cell[2]));
+    result.plane.data()[i] = of_cell[5];
+    result.cost.data()[i] = best;
+    result.mean_cost.data()[i] = sum / seen;
+    result.fraction.data()[i] = static_cast<float>(parabola.vertex);
+    result.bend.data()[i] = static_cast<float>(parabola.bend);
+  }
+  return result;
+}
+
+}  // namespace
+
+CostVolume match_costs(const SweepProblem& problem) {
+  CostVolume costs(problem, kWorstCost);
+  if (nothing_to_match(problem) || costs.bytes() == 0) return costs;
+  on_device([&](Engine& engine) {
+    const Volume volume(engine, problem);
+    compute_costs(engine, problem, volume).read(costs.cell(0, 0), costs.bytes());
+  });
+  return costs;
+}
+
+MatchResult match_cell_by_cell(const SweepProblem& problem) {
+  if (nothing_to_match(problem)) return {problem.grid.width, problem.grid.height};
+  return on_device([&](Engine& engine) {
+    const VolumeLayout layout(problem);
+    const std::vector<int> layers = engine.photographs().layers_of(problem.views);
+    const Buffer geometry(engine.device(), geometry_of(problem));
+    const Buffer photographs(engine.device(), photographs_of(problem, layers));
+    const Buffer items(engine.device(), layout.items), items_of_blocks(engine.device(), layout.items_of_blocks);
+    const std::size_t cells = static_cast<std::size_t>(problem.grid.width) * problem.grid.height;
+    Buffer& winners = engine.scratch(Scratch::matches, cells * kWinnerNumbers * sizeof(std::int32_t));
+    Program& program = cost_program(engine, problem, "match_cells.comp");
+    set_grid(problem, program);
+    program.set("block_count", static_cast<int>(layout.blocks.size()));
+    program.run(static_cast<std::int64_t>(layout.blocks.size()),
+                {&geometry, &photographs, &items, &items_of_blocks, &winners}, &engine.photographs().texture());
+    return winners_from(problem, winners);
+  });
+}
+
+CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
+  CostVolume sums(problem, 0);
+  if (costs.bytes() == 0) return sums;
+  const bool done = on_device([&](Engine& engine) {
+    if (!fits_shared_memory(engine, problem)) return false;
+    const Volume volume(engine, problem);
+    Buffer& given = engine.scratch(Scratch::costs, costs.bytes());
+    given.write(costs.cell(0, 0), costs.bytes());
+    compute_sums(engine, problem, volume, given).read(sums.cell(0, 0), sums.bytes());
+    return true;
+  });
+  return done ? sums : cpu::smooth(problem, costs);  // the same bits
+}
+
+MatchResult match_planes(const SweepProblem& problem) {
+  MatchResult result(problem.grid.width, problem.grid.height);
+  if (nothing_to_match(problem)) return result;
+  return on_device([&](Engine& engine) {
+    SweepProblem limited = problem;
+    limited.options.volume_limit_mib =
+        std::min(problem.options.volume_limit_mib,
+                 static_cast<int>(std::min<std::int64_t>(engine.device().limits().storage_block_bytes >> 20, 1 << 20)));
+    for (const Band& band : bands_within(limited))
+      copy_core(match_part(engine, part_of(problem, band)), band, result);
+    return std::move(result);
+  });
+}
+
+}  // namespace skysweep::sweep::on_gpu
