@@ -5,6 +5,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -44,6 +45,33 @@ bool lists(const char* extensions, const char* extension) {
   return extensions && std::strstr(extensions, extension) != nullptr;
 }
 
+std::optional<std::string> missing_library() {
+  if (!has_library({"libEGL.so.1"})) return "There is no EGL library (libEGL.so.1) on this machine.";
+  if (!has_library({"libOpenGL.so.0", "libGL.so.1"}))
+    return "There is no OpenGL library (libGL.so.1) on this machine.";
+  return std::nullopt;
+}
+
+struct EglDevice {
+  EGLDeviceEXT device;
+  bool is_software;
+};
+
+std::vector<EglDevice> egl_devices() {
+  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  if (!lists(extensions, "EGL_EXT_platform_device") ||
+      !(lists(extensions, "EGL_EXT_device_base") || lists(extensions, "EGL_EXT_device_enumeration")))
+    return {};
+  std::array<EGLDeviceEXT, 16> devices{};
+  EGLint count = 0;
+  if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) return {};
+  std::vector<EglDevice> found;
+  for (EGLint i = 0; i < count; ++i)
+    found.push_back(
+        {devices[i], lists(eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software")});
+  return found;
+}
+
 struct Candidate {
   EGLDisplay display = EGL_NO_DISPLAY;
   std::string where;
@@ -51,19 +79,13 @@ struct Candidate {
 
 // Displays worth trying, real GPUs first.
 std::vector<Candidate> candidates() {
-  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> real, software;
-  if (lists(extensions, "EGL_EXT_platform_device") &&
-      (lists(extensions, "EGL_EXT_device_base") || lists(extensions, "EGL_EXT_device_enumeration"))) {
-    std::array<EGLDeviceEXT, 16> devices{};
-    EGLint count = 0;
-    if (!eglQueryDevicesEXT(devices.size(), devices.data(), &count)) count = 0;
-    for (EGLint i = 0; i < count; ++i) {
-      const bool is_software = lists(eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
-      const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr);
-      (is_software ? software : real).push_back({display, "EGL device " + std::to_string(i)});
-    }
+  for (const EglDevice& device : egl_devices()) {
+    const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device.device, nullptr);
+    std::vector<Candidate>& list = device.is_software ? software : real;
+    list.push_back({display, (device.is_software ? "software device " : "GPU ") + std::to_string(list.size())});
   }
+  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (lists(extensions, "EGL_MESA_platform_surfaceless"))
     software.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
                         "Mesa without a surface"});
@@ -117,11 +139,14 @@ std::optional<std::string> describe(std::string& name, bool& is_software, Device
 Device::Device(std::unique_ptr<Context> context) : context_(std::move(context)) {}
 Device::~Device() = default;
 
+bool Device::lists_real_gpu() {
+  if (missing_library()) return false;
+  const std::vector<EglDevice> devices = egl_devices();
+  return std::any_of(devices.begin(), devices.end(), [](const EglDevice& device) { return !device.is_software; });
+}
+
 std::unique_ptr<Device> Device::open() {
-  if (!has_library({"libEGL.so.1"}))
-    throw DeviceError(Trouble::unavailable, "There is no EGL library (libEGL.so.1) on this machine.");
-  if (!has_library({"libOpenGL.so.0", "libGL.so.1"}))
-    throw DeviceError(Trouble::unavailable, "There is no OpenGL library (libGL.so.1) on this machine.");
+  if (const auto missing = missing_library()) throw DeviceError(Trouble::unavailable, *missing);
   std::string reasons;
   for (const Candidate& candidate : candidates()) {
     const auto refuse = [&](const std::string& why) { reasons += " " + candidate.where + ": " + why + "."; };

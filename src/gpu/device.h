@@ -48,6 +48,8 @@ class Device {
   // The first real GPU that gives a context, else the software rasteriser. Throws DeviceError(unavailable) with every
   // reason on a machine that has neither; never ends the program.
   static std::unique_ptr<Device> open();
+  // Whether EGL lists a GPU that is not a rasteriser on the CPU; quick, and opens nothing.
+  static bool lists_real_gpu();
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

@@ -85,11 +85,13 @@ void Program::set(const char* uniform, float value) {
   glProgramUniform1f(id_, location, value);
 }
 
-void Program::run(std::int64_t groups, const std::vector<const Buffer*>& buffers, const TextureArray* texture) {
+void Program::run(std::int64_t groups, const std::vector<const Buffer*>& buffers, const TextureArray* texture,
+                  const Buffer* constants) {
   if (groups <= 0) return;
   const Current current(*device_);
   for (std::size_t i = 0; i < buffers.size(); ++i)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(i), buffers[i]->id_);
+  if (constants) glBindBufferBase(GL_UNIFORM_BUFFER, 0, constants->id_);
   if (texture) glBindTextureUnit(0, texture->id_);
   glUseProgram(id_);
   const std::int64_t rows = (groups + kGroupsAlongX - 1) / kGroupsAlongX;

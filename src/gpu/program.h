@@ -29,8 +29,9 @@ class Program {
   // Work groups along x; beyond 65535 they go on along y, so a shader numbers them
   // gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and passes over those it has not asked for. Returns at
   // once; later runs and reads see everything written. `buffers` are the shader's storage blocks 0, 1, ...; `texture`
-  // is its sampler of binding 0.
-  void run(std::int64_t groups, const std::vector<const Buffer*>& buffers, const TextureArray* texture = nullptr);
+  // is its sampler, `constants` its uniform block, both of binding 0.
+  void run(std::int64_t groups, const std::vector<const Buffer*>& buffers, const TextureArray* texture = nullptr,
+           const Buffer* constants = nullptr);
 
  private:
   Device* device_;

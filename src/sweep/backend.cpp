@@ -94,6 +94,15 @@ GpuDevice gpu_device() {
   return {device.name(), device.is_software()};
 }
 
+Backend default_backend() {
+  if (!skysweep::gpu::Device::lists_real_gpu()) return Backend::cpu;
+  try {
+    return gpu_device().is_software ? Backend::cpu : Backend::gpu;
+  } catch (const skysweep::gpu::DeviceError&) {
+    return Backend::cpu;
+  }
+}
+
 void listen_to_gpu_trouble(std::function<void(const std::string&)> listener) {
   on_gpu::set_gpu_listener(std::move(listener));
 }

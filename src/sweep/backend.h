@@ -35,6 +35,8 @@ struct GpuDevice {
   bool is_software = false;  // a rasteriser on the CPU (llvmpipe): correct, and slower than the cpu backend
 };
 GpuDevice gpu_device();
+// What suits this machine: gpu if it has a real one, else cpu.
+Backend default_backend();
 // Called with a sentence, from any thread, whenever a tile had to be computed by cpu instead; null: nobody listens.
 void listen_to_gpu_trouble(std::function<void(const std::string&)> listener);
 

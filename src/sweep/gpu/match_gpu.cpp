@@ -57,21 +57,52 @@ std::vector<double> geometry_of(const SweepProblem& problem) {
 
 int window_levels(const SweepOptions& options) { return options.window_level_max - options.window_level_min + 1; }
 
-// costs.glsl: Photographs.
-std::vector<int> photographs_of(const SweepProblem& problem, const std::vector<int>& layers) {
-  std::vector<int> numbers;
+// costs.glsl: Views, in four numbers a line as std140 has it.
+std::vector<float> views_of(const SweepProblem& problem, const std::vector<int>& layers) {
+  std::vector<float> numbers;
+  const auto add = [&numbers](std::initializer_list<double> four) {
+    for (const double value : four) numbers.push_back(static_cast<float>(value));
+  };
   for (std::size_t v = 0; v < problem.views.size(); ++v) {
     const View& view = problem.views[v];
-    const camera::CameraModel& model = view.camera.model();
-    numbers.insert(numbers.end(), {model.width_px, model.height_px, layers[v], model.distortion.none() ? 0 : 1});
+    const camera::CameraModel& m = view.camera.model();
+    const camera::Distortion& d = m.distortion;
+    const Mat3d& r = view.camera.pose().cam_from_world;
+    const double cell = problem.grid.cell_m;
+    add({m.fx_px, m.fy_px, camera::fold_radius_squared(d), d.none() ? 0. : 1.});
+    add({d.k1, d.k2, d.k3, static_cast<double>(layers[v])});
+    add({d.p1, d.p2, static_cast<double>(m.width_px), static_cast<double>(m.height_px)});
+    add({cell * r(0, 0), cell * r(1, 0), cell * r(2, 0), 0});
+    add({-cell * r(0, 1), -cell * r(1, 1), -cell * r(2, 1), 0});
     const LayerLayout layout = layer_layout(*view.image);
     for (int window = problem.options.window_level_min; window <= problem.options.window_level_max; ++window) {
       const int level = sampling_level(view, window);
       const LuminanceLevel& image = view.image->luminance(level);
-      numbers.insert(numbers.end(), {layout.levels[level].x, layout.levels[level].y, image.width, image.height, level});
+      const PlacedLevel& placed = layout.levels[level];
+      add({double(placed.x), double(placed.y), double(image.width - 1), double(image.height - 1)});
+      add({std::ldexp(1.0, -level), 0, 0, 0});
     }
   }
   return numbers;
+}
+
+// The macros by which costs.glsl goes through views, pairs and levels. Beyond so many views, unrolled code grows faster
+// than it runs.
+constexpr int kUnrolledViews = 12;
+
+Definitions loops(int views, int levels) {
+  std::string all_views, all_pairs, all_levels;
+  for (int i = 0; i < views; ++i) {
+    all_views += "f(" + std::to_string(i) + "); ";
+    for (int k = i + 1; k < views; ++k) all_pairs += "f(" + std::to_string(i) + ", " + std::to_string(k) + "); ";
+  }
+  if (views > kUnrolledViews) {
+    all_views = "for (int each = 0; each < VIEWS; ++each) f(each);";
+    all_pairs =
+        "for (int one = 0; one + 1 < VIEWS; ++one) for (int other = one + 1; other < VIEWS; ++other) f(one, other);";
+  }
+  for (int l = 0; l < levels; ++l) all_levels += "f(v, " + std::to_string(l) + ") ";
+  return {{"ALL_VIEWS(f)", all_views}, {"ALL_PAIRS(f)", all_pairs}, {"ALL_LEVELS(f, v)", all_levels}};
 }
 
 const char* number_of(Aggregation aggregation) {
@@ -86,10 +117,12 @@ const char* number_of(Aggregation aggregation) {
 // A program that follows costs.glsl, ready but for its own uniforms.
 Program& cost_program(Engine& engine, const SweepProblem& problem, const std::string& file) {
   const SweepOptions& options = problem.options;
-  Program& program = engine.program({"costs.glsl", file}, {{"VIEWS", std::to_string(problem.views.size())},
-                                                           {"LEVELS", std::to_string(window_levels(options))},
-                                                           {"AGGREGATION", number_of(options.aggregation)},
-                                                           {"MIN_VIEWS", std::to_string(options.min_views)}});
+  Definitions definitions = loops(static_cast<int>(problem.views.size()), window_levels(options));
+  definitions.insert(definitions.end(), {{"VIEWS", std::to_string(problem.views.size())},
+                                         {"LEVELS", std::to_string(window_levels(options))},
+                                         {"AGGREGATION", number_of(options.aggregation)},
+                                         {"MIN_VIEWS", std::to_string(options.min_views)}});
+  Program& program = engine.program({"costs.glsl", file}, definitions);
   program.set("texel_width", 1.0f / static_cast<float>(engine.photographs().texture().width()));
   program.set("texel_height", 1.0f / static_cast<float>(engine.photographs().texture().height()));
   program.set("few_views_penalty", static_cast<float>(options.few_views_penalty));
@@ -126,13 +159,13 @@ Buffer& compute_costs(Engine& engine, const SweepProblem& problem, const Volume&
   Buffer& costs = engine.scratch(Scratch::costs, volume.bytes());
   const std::vector<int> layers = engine.photographs().layers_of(problem.views);
   const Buffer geometry(engine.device(), geometry_of(problem));
-  const Buffer photographs(engine.device(), photographs_of(problem, layers));
+  const Buffer views(engine.device(), views_of(problem, layers));
   const Buffer items(engine.device(), volume.layout.items);
   Program& program = cost_program(engine, problem, "match_costs.comp");
   set_grid(problem, program);
   program.set("item_count", static_cast<int>(volume.layout.items.size()));
   program.run(static_cast<std::int64_t>(volume.layout.items.size()),
-              {&geometry, &photographs, &items, &volume.blocks, &costs}, &engine.photographs().texture());
+              {&geometry, &items, &volume.blocks, &costs}, &engine.photographs().texture(), &views);
   return costs;
 }
 
@@ -250,7 +283,7 @@ MatchResult match_cell_by_cell(const SweepProblem& problem) {
     const VolumeLayout layout(problem);
     const std::vector<int> layers = engine.photographs().layers_of(problem.views);
     const Buffer geometry(engine.device(), geometry_of(problem));
-    const Buffer photographs(engine.device(), photographs_of(problem, layers));
+    const Buffer views(engine.device(), views_of(problem, layers));
     const Buffer items(engine.device(), layout.items), items_of_blocks(engine.device(), layout.items_of_blocks);
     const std::size_t cells = static_cast<std::size_t>(problem.grid.width) * problem.grid.height;
     Buffer& winners = engine.scratch(Scratch::matches, cells * kWinnerNumbers * sizeof(std::int32_t));
@@ -258,7 +291,7 @@ MatchResult match_cell_by_cell(const SweepProblem& problem) {
     set_grid(problem, program);
     program.set("block_count", static_cast<int>(layout.blocks.size()));
     program.run(static_cast<std::int64_t>(layout.blocks.size()),
-                {&geometry, &photographs, &items, &items_of_blocks, &winners}, &engine.photographs().texture());
+                {&geometry, &items, &items_of_blocks, &winners}, &engine.photographs().texture(), &views);
     return winners_from(problem, winners);
   });
 }

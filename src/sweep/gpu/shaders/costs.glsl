@@ -2,34 +2,46 @@
 // The matching cost of a cell at a plane (sweep/view_costs.h), one thread a cell, one work group a block of cells.
 //
 // Constants: VIEWS, LEVELS (window levels), AGGREGATION (0 all views, 1 better half, 2 consensus), MIN_VIEWS, CHUNK
-// (planes that a work group projects at once), BLOCK (cells along a block's side), and those of sweep/gpu/programs.cpp.
+// (planes that a work group projects at once), BLOCK (cells along a block's side), and those of sweep/gpu/engine.cpp.
+// ALL_VIEWS(f), ALL_PAIRS(f) and ALL_LEVELS(f) call f for every view, every two views and every level: one after the
+// other with constant numbers where there are few, so that what a thread keeps stays in registers.
 
 layout(local_size_x = BLOCK, local_size_y = BLOCK) in;
 
 // North-west corner x, y, cell, dz; then of each view 22 numbers: cam_from_world by rows, centre, fx, fy, cx, cy, squared
 // fold radius, k1, k2, p1, p2, k3.
 layout(std430, binding = 0) readonly buffer Geometry { double geometry[]; };
-// Of each view: width, height, layer, 1 if it has distortion; then of each window level where it lies in its layer (x, y of
-// the pixel (0, 0)), width, height, its number.
-layout(std430, binding = 1) readonly buffer Photographs { int photographs[]; };
+
+struct Level {
+  vec4 place;  // where its pixel (0, 0) lies in its layer; its last column and row
+  vec4 scale;  // pixels of the level for one of the photograph; the rest is not used
+};
+struct View {
+  vec4 lens;   // fx, fy, squared fold radius, 1 if there is distortion
+  vec4 radial; // k1, k2, k3; layer
+  vec4 tangential;  // p1, p2; width, height of the photograph
+  vec4 east;   // a cell to the east in the camera's frame
+  vec4 south;  // and one to the south
+  Level levels[LEVELS];
+};
+layout(std140, binding = 0) uniform Views { View views[VIEWS]; };
 layout(binding = 0) uniform sampler2DArray atlas;
 
 uniform float texel_width, texel_height;  // of the atlas, which is 1 wide and high
 uniform float few_views_penalty;          // grey levels
 uniform float consensus_share;
 
-const int VIEW_NUMBERS = 22, VIEW_INTEGERS = 4 + 5 * LEVELS;
+const int VIEW_NUMBERS = 22;
 
 // Where a view shows a block at one plane: exactly in its middle, in double precision once for the block; cells follow
 // by differences small enough for single precision.
 struct Place {
-  int state;      // 0 the block is behind the camera, 1 the differences hold, 2 cell by cell in double precision
-  ivec2 base;     // whole pixel of the middle
-  vec2 remainder; // and what is beyond it
-  vec2 normal;    // x / z, y / z of the middle, without distortion
-  vec4 slope;     // d x, d y a cell east and a cell south, to be divided by the depth
-  vec3 depth;     // of the middle, and its growth a cell east and south
+  float depth;     // of the middle; BEHIND: the block is behind the camera; CELL_BY_CELL: the differences do not hold
+  vec2 base;       // whole pixel of the middle
+  vec2 remainder;  // and what is beyond it
+  vec2 normal;     // x / z, y / z of the middle, without distortion
 };
+const float BEHIND = 0, CELL_BY_CELL = -1;
 shared Place places[CHUNK * VIEWS];
 
 double number(int view, int i) { return geometry[4 + view * VIEW_NUMBERS + i]; }
@@ -56,32 +68,18 @@ dvec3 ground(double east, double south, int plane) {
 }
 
 Place place_of(int view, ivec2 block, int plane) {
-  Place place;
+  Place place = Place(BEHIND, vec2(0), vec2(0), vec2(0));
   dvec3 q = in_camera(view, ground(double(block.x * BLOCK + BLOCK / 2), double(block.y * BLOCK + BLOCK / 2), plane));
-  double cell = geometry[2];
-  dvec3 east = cell * dvec3(number(view, 0), number(view, 3), number(view, 6));
-  dvec3 south = -cell * dvec3(number(view, 1), number(view, 4), number(view, 7));
-  double change = double(BLOCK / 2) * (abs(east.z) + abs(south.z));  // of the depth within the block
-  place.state = q.z < -change ? 0 : q.z > 4.0lf * change ? 1 : 2;
-  place.base = ivec2(0);
-  place.remainder = place.normal = vec2(0);
-  place.slope = vec4(0);
-  place.depth = vec3(1, 0, 0);
-  if (place.state != 1) return place;
+  double change = double(BLOCK / 2) * double(abs(views[view].east.z) + abs(views[view].south.z));  // within the block
+  if (q.z < -1.01lf * change) return place;
+  place.depth = CELL_BY_CELL;
+  if (q.z < 4.0lf * change) return place;
   dvec2 n = q.xy / q.z;
   dvec2 pixel = pixel_of(view, n);
   // Beyond these the differences are too coarse, or whole numbers too large.
-  if (!(max(abs(pixel.x), abs(pixel.y)) < 1e6lf)) {
-    place.state = 2;
-    return place;
-  }
+  if (!(max(abs(pixel.x), abs(pixel.y)) < 1e6lf)) return place;
   dvec2 whole = floor(pixel);
-  place.base = ivec2(whole);
-  place.remainder = vec2(pixel - whole);
-  place.normal = vec2(n);
-  place.slope = vec4(east.x - n.x * east.z, south.x - n.x * south.z, east.y - n.y * east.z, south.y - n.y * south.z);
-  place.depth = vec3(q.z, east.z, south.z);
-  return place;
+  return Place(float(q.z), vec2(whole), vec2(pixel - whole), vec2(n));
 }
 
 // All threads of the group: fills `places` for `count` planes from `first` on.
@@ -91,138 +89,163 @@ void find_places(ivec2 block, int first, int count) {
   barrier();
 }
 
-// The change of a position in the photograph, in pixels, where the normalised one changes from n by d: only
-// differences of polynomials, so that nothing is lost to cancellation.
-vec2 distorted_change(int view, vec2 n, vec2 d) {
-  float k1 = float(number(view, 17)), k2 = float(number(view, 18)), k3 = float(number(view, 21));
-  float p1 = float(number(view, 19)), p2 = float(number(view, 20));
+// The change of a position in the photograph where the normalised one changes from n by d: only differences of
+// polynomials, so that nothing is lost to cancellation.
+vec2 distorted_change(int v, vec2 n, vec2 d) {
+  vec3 k = views[v].radial.xyz;
+  vec2 p = views[v].tangential.xy;
   float r0 = dot(n, n), e = dot(2 * n + d, d), r2 = r0 + e;
-  float radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  float radial_change = e * (k1 + k2 * (r2 + r0) + k3 * (r2 * r2 + r2 * r0 + r0 * r0));
+  float radial = 1 + r2 * (k.x + r2 * (k.y + r2 * k.z));
+  float radial_change = e * (k.x + k.y * (r2 + r0) + k.z * (r2 * r2 + r2 * r0 + r0 * r0));
   float xy2 = 2 * (n.x * d.y + n.y * d.x + d.x * d.y);
   vec2 squares = d * (2 * n + d);  // change of x^2, y^2
-  return d * radial + n * radial_change +
-         vec2(p1 * xy2 + p2 * (e + 2 * squares.x), p2 * xy2 + p1 * (e + 2 * squares.y));
+  return d * radial + n * radial_change + vec2(p.x * xy2 + p.y * (e + 2 * squares.x), p.y * xy2 + p.x * (e + 2 * squares.y));
 }
 
-// Whether the view shows the cell, and where: whole pixel and the rest.
-bool position(int view, Place place, ivec2 cell, int plane, out ivec2 base, out vec2 rest) {
-  vec2 size = vec2(photographs[view * VIEW_INTEGERS], photographs[view * VIEW_INTEGERS + 1]);
-  base = place.base;
-  rest = vec2(0);
-  if (place.state == 0) return false;
-  if (place.state == 2) {
-    dvec3 q = in_camera(view, ground(double(cell.x) + 0.5lf, double(cell.y) + 0.5lf, plane));
-    if (!(q.z > 0.0lf)) return false;
-    dvec2 n = q.xy / q.z;
-    if (!(dot(n, n) < number(view, 16))) return false;
-    dvec2 pixel = pixel_of(view, n);
-    if (!(pixel.x >= 0.0lf && pixel.y >= 0.0lf && pixel.x <= double(size.x) && pixel.y <= double(size.y))) return false;
-    base = ivec2(floor(pixel));
-    rest = vec2(pixel - dvec2(base));
-    return true;
-  }
-  vec2 from_middle = vec2(gl_LocalInvocationID.xy) + (0.5 - BLOCK / 2);
-  float depth = place.depth.x + dot(place.depth.yz, from_middle);
-  vec2 d = vec2(dot(place.slope.xy, from_middle), dot(place.slope.zw, from_middle)) / depth;
-  vec2 n = place.normal + d;
-  if (photographs[view * VIEW_INTEGERS + 3] != 0) {
-    if (!(dot(n, n) < float(number(view, 16)))) return false;
-    d = distorted_change(view, place.normal, d);
-  }
-  rest = place.remainder + vec2(float(number(view, 12)), float(number(view, 13))) * d;
-  vec2 least = vec2(-base), most = size - vec2(base);
-  return rest.x >= least.x && rest.y >= least.y && rest.x <= most.x && rest.y <= most.y;
+// A position in a photograph: whole pixel x, y and the rest. Not on the photograph: NOT_SHOWN in x.
+const float NOT_SHOWN = -1e9;
+
+vec4 position_in_double(int v, ivec2 cell, int plane) {
+  const vec4 nowhere = vec4(NOT_SHOWN, 0, 0, 0);
+  dvec3 q = in_camera(v, ground(double(cell.x) + 0.5lf, double(cell.y) + 0.5lf, plane));
+  if (!(q.z > 0.0lf)) return nowhere;
+  dvec2 n = q.xy / q.z;
+  if (!(dot(n, n) < number(v, 16))) return nowhere;
+  dvec2 pixel = pixel_of(v, n);
+  dvec2 size = dvec2(views[v].tangential.zw);
+  if (!(pixel.x >= 0.0lf && pixel.y >= 0.0lf && pixel.x <= size.x && pixel.y <= size.y)) return nowhere;
+  dvec2 whole = floor(pixel);
+  return vec4(vec2(whole), vec2(pixel - whole));
 }
+
+vec4 position_by_differences(int v, Place place, vec2 from_middle) {
+  const vec4 nowhere = vec4(NOT_SHOWN, 0, 0, 0);
+  vec3 change = from_middle.x * views[v].east.xyz + from_middle.y * views[v].south.xyz;
+  vec2 d = (change.xy - place.normal * change.z) / (place.depth + change.z);
+  if (views[v].lens.w != 0) {
+    vec2 n = place.normal + d;
+    if (!(dot(n, n) < views[v].lens.z)) return nowhere;
+    d = distorted_change(v, place.normal, d);
+  }
+  vec2 rest = place.remainder + views[v].lens.xy * d;
+  vec2 least = -place.base, most = views[v].tangential.zw - place.base;
+  if (!(rest.x >= least.x && rest.y >= least.y && rest.x <= most.x && rest.y <= most.y)) return nowhere;
+  return vec4(place.base, rest);
+}
+
+// What a thread knows about its cell at one plane.
+float luminance[VIEWS * LEVELS];  // 0 to 1
+float shown[VIEWS];               // 1 or 0
+float cost[VIEWS];                // C_k
+vec4 exact[VIEWS];                // positions of views whose place is CELL_BY_CELL
+float n;                          // views that show it
+float mean, limit, used, per_reach, weights, squares;
+vec4 position;
+int place_number;
+vec2 from_middle;
 
 // Bilinear luminance, 0 to 1, with weights of full precision: the four pixels come in one gather, addressed by the
 // corner that they share.
-float sample_level(int view, int level, ivec2 base, vec2 rest) {
-  int at = view * VIEW_INTEGERS + 4 + level * 5;
-  ivec2 origin = ivec2(photographs[at], photographs[at + 1]);
-  ivec2 size = ivec2(photographs[at + 2], photographs[at + 3]);
-  float scale = exp2(float(-photographs[at + 4]));
-  vec2 base_at_level = vec2(base) * scale - 0.5;
+float sample_level(int v, int level) {
+  Level l = views[v].levels[level];
+  vec2 base_at_level = position.xy * l.scale.x - 0.5;
   vec2 base_whole = floor(base_at_level);
-  vec2 p = rest * scale + (base_at_level - base_whole);
+  vec2 p = position.zw * l.scale.x + (base_at_level - base_whole);
   vec2 whole = floor(p);
   vec2 weight = p - whole;
-  ivec2 pixel = clamp(ivec2(whole) + ivec2(base_whole), ivec2(-1), size - 1);
-  vec4 four = textureGather(atlas, vec3(vec2(origin + pixel + 1) * vec2(texel_width, texel_height), photographs[view * VIEW_INTEGERS + 2]));
+  vec2 pixel = clamp(whole + base_whole, vec2(-1), l.place.zw);
+  vec4 four = textureGather(atlas, vec3((l.place.xy + pixel + 1) * vec2(texel_width, texel_height), views[v].radial.w));
   vec2 rows = mix(four.wx, four.zy, weight.x);
   return mix(rows.x, rows.y, weight.y);
 }
 
-// AC of the cell at plane number `p` of `places`, grey levels; NO_COST with fewer than MIN_VIEWS views. Sums run over
-// window levels and other views, in units of 65535 / 256 grey levels.
+#define SAMPLE_LEVEL(v, l) luminance[(v) * LEVELS + (l)] = sample_level(v, l);
+void sample_view(int v) {
+  Place place = places[place_number + v];
+  position = place.depth > 0 ? position_by_differences(v, place, from_middle) : vec4(NOT_SHOWN, 0, 0, 0);
+  if (place.depth < 0) position = exact[v];
+  shown[v] = position.x > NOT_SHOWN ? 1 : 0;
+  cost[v] = 0;
+  n += shown[v];
+  if (!(position.x > NOT_SHOWN)) position = vec4(0);
+  ALL_LEVELS(SAMPLE_LEVEL, v)
+}
+
+#define LEVEL_DIFFERENCE(i, l) sum += abs(luminance[(i) * LEVELS + (l)] - luminance[k * LEVELS + (l)]);
+float difference(int i, int k) {
+  float sum = 0;
+  ALL_LEVELS(LEVEL_DIFFERENCE, i)
+  return sum;
+}
+
+void add_difference(int i, int k) {
+  float both = difference(i, k) * (shown[i] * shown[k]);
+  cost[i] += both;
+  cost[k] += both;
+}
+
+void add_cost(int k) { mean += cost[k]; }
+
+void hide_unseen(int k) { cost[k] = shown[k] > 0 ? cost[k] : NO_COST; }
+
+void weigh(int k) {
+  float weight = clamp(1 - (cost[k] - limit) * per_reach, 0, 1) * shown[k];
+  cost[k] = weight;
+  weights += weight;
+  squares += weight * weight;
+}
+
+void add_weighted(int i, int k) { mean += difference(i, k) * (cost[i] * cost[k]); }
+
+float next, equal;
+void find_next(int k) { next = cost[k] > limit ? min(next, cost[k]) : next; }
+void count_equal(int k) { equal += cost[k] == next ? 1 : 0; }
+
+// The `used` lowest costs: their sum into `mean`, the highest of them into `limit`.
+void add_lowest() {
+  float taken = 0;
+  limit = -1;
+  while (taken < used) {  // from one value to the next higher; equal ones count as often as they are there
+    next = NO_COST;
+    equal = 0;
+    ALL_VIEWS(find_next)
+    ALL_VIEWS(count_equal)
+    if (equal == 0) break;
+    mean += next * min(equal, used - taken);
+    taken += equal;
+    limit = next;
+  }
+}
+
+// AC of the cell at a plane, the number `p` of `places`, grey levels; NO_COST with fewer than MIN_VIEWS views. Sums run
+// over window levels and other views, in units of 65535 / 256 grey levels.
 float matching_cost(int p, ivec2 cell, int plane) {
-  float luminance[VIEWS * LEVELS];
-  float shown[VIEWS];
-  float cost[VIEWS];
-  float n = 0;
-  for (int v = 0; v < VIEWS; ++v) {
-    ivec2 base;
-    vec2 rest;
-    bool is_shown = position(v, places[p * VIEWS + v], cell, plane, base, rest);
-    shown[v] = is_shown ? 1 : 0;
-    cost[v] = 0;
-    n += shown[v];
-    for (int l = 0; l < LEVELS; ++l) luminance[v * LEVELS + l] = is_shown ? sample_level(v, l, base, rest) : 0;
-  }
+  n = mean = limit = weights = squares = 0;
+  place_number = p * VIEWS;
+  from_middle = vec2(gl_LocalInvocationID.xy) + (0.5 - BLOCK / 2);
+  for (int v = 0; v < VIEWS; ++v)
+    if (places[place_number + v].depth < 0) exact[v] = position_in_double(v, cell, plane);
+  ALL_VIEWS(sample_view)
   if (n < MIN_VIEWS) return NO_COST;
-  for (int i = 0; i + 1 < VIEWS; ++i) {
-    for (int k = i + 1; k < VIEWS; ++k) {
-      float sum = 0;
-      for (int l = 0; l < LEVELS; ++l) sum += abs(luminance[i * LEVELS + l] - luminance[k * LEVELS + l]);
-      sum *= shown[i] * shown[k];
-      cost[i] += sum;
-      cost[k] += sum;
-    }
-  }
+  ALL_PAIRS(add_difference)
   const float unit = 65535.0 / (256.0 * LEVELS);
-  float mean = 0;
 #if AGGREGATION == 0
-  for (int k = 0; k < VIEWS; ++k) mean += cost[k];
+  ALL_VIEWS(add_cost)
   mean /= n * (n - 1);
-#else
-  for (int k = 0; k < VIEWS; ++k) cost[k] = shown[k] > 0 ? cost[k] : NO_COST;
-#if AGGREGATION == 1
-  float used = max(1, floor(0.5 * n));
-#else
-  float used = max(ceil(consensus_share * n - SHARE_SLACK), min(n, float(SMALLEST_CONSENSUS)));
-#endif
-  float limit = 0;
-  for (int k = 0; k < VIEWS; ++k) {
-    float rank = 0;
-    for (int j = 0; j < VIEWS; ++j) rank += (cost[j] < cost[k] || (cost[j] == cost[k] && j < k)) ? 1 : 0;
-#if AGGREGATION == 1
-    mean += rank < used ? cost[k] : 0;
-#else
-    limit = rank == used - 1 ? cost[k] : limit;
-#endif
-  }
-#if AGGREGATION == 1
+#elif AGGREGATION == 1
+  ALL_VIEWS(hide_unseen)
+  used = max(1, floor(0.5 * n));
+  add_lowest();
   mean /= used * (n - 1);
 #else
-  float per_reach = 1 / (CONSENSUS_SOFTNESS * limit + CONSENSUS_SOFTNESS_GREY / unit * (n - 1));
-  float weights = 0, squares = 0;
-  for (int k = 0; k < VIEWS; ++k) {
-    float weight = clamp(1 - (cost[k] - limit) * per_reach, 0, 1) * shown[k];
-    cost[k] = weight;
-    weights += weight;
-    squares += weight * weight;
-  }
-  for (int i = 0; i + 1 < VIEWS; ++i) {
-    float of_first = 0;
-    for (int k = i + 1; k < VIEWS; ++k) {
-      float sum = 0;
-      for (int l = 0; l < LEVELS; ++l) sum += abs(luminance[i * LEVELS + l] - luminance[k * LEVELS + l]);
-      of_first += sum * cost[k];
-    }
-    mean += of_first * cost[i];
-  }
+  ALL_VIEWS(hide_unseen)
+  used = max(ceil(consensus_share * n - SHARE_SLACK), min(n, float(SMALLEST_CONSENSUS)));
+  add_lowest();
+  mean = 0;
+  per_reach = 1 / (CONSENSUS_SOFTNESS * limit + CONSENSUS_SOFTNESS_GREY / unit * (n - 1));
+  ALL_VIEWS(weigh)
+  ALL_PAIRS(add_weighted)
   mean /= 0.5 * (weights * weights - squares);
-#endif
 #endif
   return mean * unit + few_views_penalty / n;
 }

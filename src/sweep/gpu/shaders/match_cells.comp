@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The best plane of each cell by itself: one work group a block goes through all its planes. Follows costs.glsl.
 
-layout(std430, binding = 2) readonly buffer Items { ivec4 items[]; };
+layout(std430, binding = 1) readonly buffer Items { ivec4 items[]; };
 // Of each block: its first item and the one behind its last.
-layout(std430, binding = 3) readonly buffer ItemsOfBlocks { ivec2 items_of_blocks[]; };
+layout(std430, binding = 2) readonly buffer ItemsOfBlocks { ivec2 items_of_blocks[]; };
 // Of each cell: cost at the best plane, below and above it, sum and number of all costs, the plane.
-layout(std430, binding = 4) writeonly buffer Winners { float winners[]; };
+layout(std430, binding = 3) writeonly buffer Winners { float winners[]; };
 uniform int block_count, blocks_across, width, height;
 
 void main() {

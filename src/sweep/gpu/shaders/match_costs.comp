@@ -3,10 +3,10 @@
 // Follows costs.glsl.
 
 // Of each item: block number, first plane, planes, slot.
-layout(std430, binding = 2) readonly buffer Items { ivec4 items[]; };
+layout(std430, binding = 1) readonly buffer Items { ivec4 items[]; };
 // volume_layout.h
-layout(std430, binding = 3) readonly buffer Blocks { int blocks[]; };
-layout(std430, binding = 4) writeonly buffer Volume { ivec4 costs[]; };
+layout(std430, binding = 2) readonly buffer Blocks { int blocks[]; };
+layout(std430, binding = 3) writeonly buffer Volume { ivec4 costs[]; };
 uniform int item_count, blocks_across, width, height;
 
 void main() {
