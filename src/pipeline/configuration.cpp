@@ -96,6 +96,10 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("normalization_radius_px", o.normalization_radius_px);
   key("coarse_levels", o.coarse_levels);
   key("rival_tolerance", o.rival_tolerance);
+  key("visibility_passes", o.visibility_passes);
+  key("sure_excess", o.sure_excess);
+  key("follow_slopes", o.follow_slopes);
+  key("hidden_cost", o.hidden_cost);
   key("aggregation", o.aggregation);
   key("consensus_share", o.consensus_share);
   key("smoothing", o.smoothing);

@@ -42,7 +42,7 @@ MatchResult match_in_bands(const SweepProblem& problem, Backend backend, Executo
     const SweepProblem part = part_of(problem, band);
     const CostVolume costs = match_costs(part, backend, executor);
     MatchResult matches = best_planes(costs, smooth(part, costs, backend));
-    refine_fractions(costs, part.options.refinement_radius_cells, executor, matches);
+    refine_fractions(part, costs, executor, matches);
     copy_core(matches, band, result);
   }
   return result;

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+
+#include "sweep/expected_planes.h"
 
 namespace skysweep::sweep {
 namespace {
@@ -12,6 +16,10 @@ namespace {
 constexpr int kMarginPlanes = 3;
 // Coarse cells around a block whose heights count for it, too.
 constexpr int kReachCells = 1;
+// How far the surface must rise above a line of sight to hide what is behind, and how near to a cell nothing does:
+// heights scatter, and edges stand where smoothing put them.
+constexpr double kOcclusionTolerancePlanes = 2;
+constexpr int kSkippedCells = 1;
 // Ranges so near to each other that skipping the planes between saves nothing.
 constexpr int kBridgedPlanes = 3;
 
@@ -62,6 +70,25 @@ void keep_planes_near(const MatchResult& found, SweepProblem& fine) {
   }
 }
 
+// Limits the views of `coarse` where `found` is not sure to those that see past the heights of which it is.
+void look_past(const MatchResult& found, Executor& executor, SweepProblem& coarse) {
+  const int width = coarse.grid.width, height = coarse.grid.height;
+  Array2d<float> sure(width, height, std::numeric_limits<float>::quiet_NaN());
+  Array2d<std::uint8_t> unsure(width, height, 0);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      if (!std::isfinite(found.cost(column, row))) continue;
+      if (found.rival_excess(column, row) >= coarse.options.sure_excess)
+        sure(column, row) = static_cast<float>(found.plane(column, row) * coarse.dz_m);
+      else
+        unsure(column, row) = 1;
+    }
+  }
+  const HorizonQuestion question{sure, unsure, coarse.all_planes().first * coarse.dz_m,
+                                 kOcclusionTolerancePlanes * coarse.dz_m, kSkippedCells};
+  coarse.visibility = {std::make_shared<const Horizons>(coarse.grid, coarse.views, question, executor), 1, 0};
+}
+
 Array2d<float> spread(const Array2d<float>& coarse, int times, int width, int height) {
   Array2d<float> fine(width, height);
   for (int row = 0; row < height; ++row)
@@ -77,11 +104,21 @@ NarrowedSearch narrow_search(const SweepProblem& problem, Backend backend, Execu
   for (int level = 0; level < problem.options.coarse_levels; ++level) scales.push_back(doubled(scales.back()));
   NarrowedSearch out;
   for (std::size_t scale = scales.size() - 1; scale > 0; --scale) {
-    const MatchResult found = match_planes(scales[scale], backend, executor);
-    samples += sample_count(scales[scale]);
+    SweepProblem& coarse = scales[scale];
+    MatchResult found = match_planes(coarse, backend, executor);
+    samples += sample_count(coarse);
+    for (int pass = 0; scale == 1 && pass < coarse.options.visibility_passes; ++pass) {
+      look_past(found, executor, coarse);
+      if (coarse.options.follow_slopes) coarse.expected_plane = expected_planes(found, 1, coarse);
+      found = match_planes(coarse, backend, executor);
+      samples += sample_count(coarse);
+    }
     if (scale + 1 == scales.size())
       out.mean_cost = spread(found.mean_cost, 1 << scale, problem.grid.width, problem.grid.height);
     keep_planes_near(found, scales[scale - 1]);
+    scales[scale - 1].visibility = coarse.visibility;
+    scales[scale - 1].visibility.times = 2;
+    if (coarse.options.follow_slopes) scales[scale - 1].expected_plane = expected_planes(found, 2, scales[scale - 1]);
   }
   out.problem = std::move(scales.front());
   return out;

@@ -21,13 +21,14 @@ constexpr int kFewestCoarsePlanes = 16;
 // many belong together: false matches come in smaller patches.
 constexpr double kConnectedPlanes = 2;
 constexpr int kSmallestSurfaceCells = 24;
-// Around the range found, in coarse planes: what the coarse sweep may have missed by its own resolution.
-constexpr double kMarginCoarsePlanes = 2;
+// Around the range found, in coarse planes: what the coarse sweep may have missed by its own resolution; above, also
+// things too small for it that stand on what it found.
+constexpr double kMarginCoarsePlanes = 2, kMarginAboveCoarsePlanes = 6;
 // Ranges are found for areas of so many coarse cells across.
 constexpr int kAreaCoarseCells = 8;
 // An area is searched where the coarse surface lies up to this many coarse cells outside it, too: surfaces near a step
 // reach over its border.
-constexpr int kNeighborhoodCoarseCells = 4;
+constexpr int kNeighborhoodCoarseCells = 16;
 // An area of which the coarse sweep knows less than this share may hold a surface that it missed (a small roof whose
 // texture is gone at that scale, with false matches in between): all heights of the tile are searched there, if they
 // are at most so many planes: more cost minutes on real photographs of woods and gained nothing.
@@ -134,8 +135,9 @@ std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProbl
   problem.search_everywhere({});
   if (!whole) return std::nullopt;
 
-  const double margin_m = kMarginCoarsePlanes * kCoarseCells * problem.dz_m;
-  const int all_planes = planes_between(whole->z_low - margin_m, whole->z_high + margin_m, problem.dz_m, 1).count();
+  const double coarse_plane_m = kCoarseCells * problem.dz_m, below_m = kMarginCoarsePlanes * coarse_plane_m,
+               above_m = kMarginAboveCoarsePlanes * coarse_plane_m;
+  const int all_planes = planes_between(whole->z_low - below_m, whole->z_high + above_m, problem.dz_m, 1).count();
   const double least_known = all_planes <= kMostPlanesSearchedBlindly ? kLeastKnownShare : 0;
   constexpr int kBlocksPerArea = kAreaCoarseCells * kCoarseCells / kBlockCells, reach = kNeighborhoodCoarseCells;
   for (int by = 0; by < problem.block_planes.height(); ++by) {
@@ -145,7 +147,7 @@ std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProbl
       HeightRange range = *whole;
       if (known_share(surface, x, y, right, bottom) >= least_known)
         range = range_within(surface, x - reach, y - reach, right + reach, bottom + reach).value_or(*whole);
-      problem.block_planes(bx, by) = planes_between(range.z_low - margin_m, range.z_high + margin_m, problem.dz_m, 1);
+      problem.block_planes(bx, by) = planes_between(range.z_low - below_m, range.z_high + above_m, problem.dz_m, 1);
     }
   }
   return whole;

@@ -15,9 +15,10 @@ namespace skysweep::sweep {
 double sub_plane_vertex(double below, double middle, double above);
 
 // Replaces `fraction` of the cells that have one: the costs at the best plane k and its two neighbours are added up
-// over the cells within `radius` columns and rows whose own best plane is at most 3 from k. Path sums, which chose the
-// plane, are drawn towards it by the price of steps; plain costs are not, and 3 planes either way keep what lies beyond
-// an edge out. A radius of 0 changes nothing.
-void refine_fractions(const CostVolume& costs, int radius, Executor& executor, MatchResult& result);
+// over the cells within refinement_radius_cells columns and rows whose own best plane is at most 3 from k, both
+// counted from the plane expected there (SweepProblem::expected_plane). Path sums, which chose the plane, are drawn
+// towards it by the price of steps; plain costs are not, and 3 planes either way keep what lies beyond an edge out. A
+// radius of 0 changes nothing.
+void refine_fractions(const SweepProblem& problem, const CostVolume& costs, Executor& executor, MatchResult& result);
 
 }  // namespace skysweep::sweep

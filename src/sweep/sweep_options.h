@@ -39,6 +39,20 @@ struct SweepOptions {
   // A coarse height is followed as well if the cost of its minimum is at most so far above the best one's, grey levels.
   double rival_tolerance = 1;
 
+  // On the finest of the coarser grids: how often the search is repeated with the views that see past the surface found
+  // so far, where that surface is not sure (sweep/occlusion.h).
+  int visibility_passes = 1;
+
+  // A height is sure when the next best of its cell costs at least so much more, grey levels.
+  double sure_excess = 4;
+
+  // Smoothing follows the slopes that the finest of the coarser grids found where it is sure.
+  bool follow_slopes = true;
+
+  // What a height costs that fewer than min_views views see past the sure surface, grey levels: neither likely nor ruled
+  // out.
+  double hidden_cost = 8;
+
   Aggregation aggregation = Aggregation::consensus;
 
   // How many of the views that show a place make up its consensus, at least three of them: fewer find what few see,

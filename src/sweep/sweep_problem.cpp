@@ -2,6 +2,8 @@
 #include "sweep/sweep_problem.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 namespace skysweep::sweep {
 
@@ -10,6 +12,9 @@ std::optional<std::string> SweepOptions::problem() const {
     return "window levels must satisfy 0 <= window_level_min <= window_level_max <= 8";
   if (coarse_levels < 0 || coarse_levels > 6) return "coarse_levels must lie between 0 (search everywhere) and 6";
   if (!(rival_tolerance >= 0 && rival_tolerance <= 60)) return "rival_tolerance must lie between 0 and 60 grey levels";
+  if (visibility_passes < 0 || visibility_passes > 8) return "visibility_passes must lie between 0 and 8";
+  if (!(sure_excess >= 0)) return "sure_excess must be 0 or more (grey levels)";
+  if (!(hidden_cost >= 0 && hidden_cost <= 60)) return "hidden_cost must lie between 0 and 60 grey levels";
   if (normalization_radius_px < 0 || normalization_radius_px > 100)
     return "normalization_radius_px must lie between 0 (off) and 100";
   if (!(consensus_share > 0 && consensus_share <= 1)) return "consensus_share must lie above 0 and not above 1";
@@ -34,6 +39,16 @@ PlaneRange SweepProblem::all_planes() const {
   PlaneRange all;
   for (const PlaneSet& planes : block_planes) all.include(planes.hull());
   return all;
+}
+
+SweepProblem::Rise SweepProblem::expected_rise(int from_column, int from_row, int to_column, int to_row,
+                                int apart) const {
+  if (expected_plane.empty()) return {};
+  const float from = expected_plane(from_column, from_row), to = expected_plane(to_column, to_row);
+  if (std::isnan(from) || std::isnan(to)) return {};
+  const int rise = static_cast<int>(std::lround(to)) - static_cast<int>(std::lround(from));
+  if (std::abs(rise) > kSteepestExpectedRise * apart) return {};
+  return {rise, to - from - static_cast<float>(rise)};
 }
 
 void SweepProblem::check() const {

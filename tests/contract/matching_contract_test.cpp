@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -124,6 +125,37 @@ std::vector<ContractCase> cases() {
          p.problem.block_planes(1, 0) = PlaneRange{2, 2};
          p.problem.block_planes(2, 0) = two_ranges({-4, -2}, {1, 30});
          p.problem.block_planes(0, 2) = two_ranges({-2, 2}, {4, 4});
+         return p;
+       }},
+      {"views_hidden_by_a_known_surface",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         const Grid half{40, 40, 2 * p.problem.grid.cell_m, p.problem.grid.north_west_corner};
+         Array2d<float> surface(40, 40, std::numeric_limits<float>::quiet_NaN());
+         for (int y = 10; y < 30; ++y)
+           for (int x = 15; x < 22; ++x) surface(x, y) = 2.5f;
+         const Array2d<std::uint8_t> everywhere(40, 40, 1);
+         SerialExecutor serial;
+         p.problem.visibility = {
+             std::make_shared<const Horizons>(half, p.problem.views, HorizonQuestion{surface, everywhere, -3, 0.1, 0},
+                                              serial),
+             2, 0};
+         p.problem.options.min_views = 3;
+         return p;
+       }},
+      {"smoothing_along_expected_slopes",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         const Grid& grid = p.problem.grid;
+         p.problem.expected_plane = Array2d<float>(grid.width, grid.height);
+         for (int y = 0; y < grid.height; ++y) {
+           for (int x = 0; x < grid.width; ++x) {
+             const Vec2d cell = grid.cell_center(x, y);
+             p.problem.expected_plane(x, y) =
+                 x > 60 ? std::numeric_limits<float>::quiet_NaN()
+                        : static_cast<float>(1.5 * rolling(cell.x, cell.y) / p.problem.dz_m + (y > 50 ? 20 : 0));
+           }
+         }
          return p;
        }},
       {"oblique_views",
@@ -277,6 +309,11 @@ TEST(MatchingContract, smoothing_is_exact) {
               random.below(9) == 0 ? kWorstCost : static_cast<Cost>(random.below(kWorstCost));
       });
   for (const double large : {0.0, 8.0, 60.0}) {
+    // The last time along slopes, some of them too steep to be followed.
+    if (large == 60) {
+      problem.expected_plane = Array2d<float>(problem.grid.width, problem.grid.height);
+      for (float& plane : problem.expected_plane) plane = 0.5f * static_cast<float>(random.below(20));
+    }
     problem.options.small_step_penalty = large / 8;
     problem.options.large_step_penalty = large;
     const CostVolume expected = smooth(problem, costs, Backend::reference);

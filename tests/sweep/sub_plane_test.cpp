@@ -51,7 +51,7 @@ TEST(SubPlaneVertex, does_not_exist_without_an_upward_bend) {
 }
 
 TEST(RefineFractions, noise_of_single_cells_averages_out) {
-  const SweepProblem problem = problem_of(40, 12);
+  SweepProblem problem = problem_of(40, 12);
   Random random(5);
   Array2d<double> noise(40, 40);
   for (double& v : noise) v = 0.2 * random.normal();
@@ -59,7 +59,8 @@ TEST(RefineFractions, noise_of_single_cells_averages_out) {
   SerialExecutor serial;
   const auto spread = [&](int radius) {
     MatchResult result = best_planes(costs, costs);
-    refine_fractions(costs, radius, serial, result);
+    problem.options.refinement_radius_cells = radius;
+    refine_fractions(problem, costs, serial, result);
     double sum = 0;
     for (int y = 5; y < 35; ++y)
       for (int x = 5; x < 35; ++x) sum += std::pow(result.plane(x, y) + result.fraction(x, y) - 6, 2);
@@ -70,20 +71,22 @@ TEST(RefineFractions, noise_of_single_cells_averages_out) {
 }
 
 TEST(RefineFractions, cells_beyond_a_step_do_not_count) {
-  const SweepProblem problem = problem_of(20, 30);
+  SweepProblem problem = problem_of(20, 30);
   const CostVolume costs = curves(problem, 3, [](int x, int) { return x < 10 ? 4.0 : 25.0; });
   SerialExecutor serial;
   MatchResult result = best_planes(costs, costs);
-  refine_fractions(costs, 3, serial, result);
+  problem.options.refinement_radius_cells = 3;
+  refine_fractions(problem, costs, serial, result);
   for (int x = 0; x < 20; ++x) EXPECT_NEAR(result.plane(x, 9) + result.fraction(x, 9), x < 10 ? 4 : 25, 1e-6) << x;
 }
 
 TEST(RefineFractions, a_slope_keeps_its_heights) {
-  const SweepProblem problem = problem_of(30, 30);
+  SweepProblem problem = problem_of(30, 30);
   const CostVolume costs = curves(problem, 3, [](int x, int y) { return 5 + 0.31 * x + 0.17 * y; });
   SerialExecutor serial;
   MatchResult result = best_planes(costs, costs);
-  refine_fractions(costs, 3, serial, result);
+  problem.options.refinement_radius_cells = 3;
+  refine_fractions(problem, costs, serial, result);
   for (int y = 5; y < 25; ++y)
     for (int x = 5; x < 25; ++x)
       EXPECT_NEAR(result.plane(x, y) + result.fraction(x, y), 5 + 0.31 * x + 0.17 * y, 0.06) << x << " " << y;

@@ -24,14 +24,50 @@ struct Workspace {
   std::array<const ViewKernel*, kMaxViews> active;  // views that show any cell of the segment
   SegmentSamples samples;
   SegmentDifferences differences;
+  alignas(64) std::array<float, kSegmentCells> shown_by;  // views that show the cell, whether hidden or not
   alignas(64) std::array<float, kSegmentCells> costs;
 };
+
+HWY_INLINE void add_shown(const Positions& positions, Workspace& work) {
+  const F f;
+  for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f)))
+    hn::Store(hn::Add(hn::Load(f, work.shown_by.data() + i), hn::Load(f, positions.shown.data() + i)), f,
+              work.shown_by.data() + i);
+}
+
+// The view no longer shows cells from which height z is hidden; returns whether it shows any.
+HWY_INLINE bool keep_visible(const float* HWY_RESTRICT lowest_visible, float z, Positions& positions, bool& all) {
+  const F f;
+  bool any = false;
+  for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
+    const auto sees = hn::Ge(hn::Set(f, z), hn::LoadU(f, lowest_visible + i));
+    const VF shown = hn::IfThenElseZero(sees, hn::Load(f, positions.shown.data() + i));
+    hn::Store(shown, f, positions.shown.data() + i);
+    all = all && hn::AllTrue(f, sees);
+    any = any || !hn::AllTrue(f, hn::Eq(shown, hn::Zero(f)));
+  }
+  return any;
+}
+
+// Heights that enough views would show, were they not hidden, get the cost of hidden ones instead of none.
+HWY_INLINE void price_hidden(const SweepOptions& options, Workspace& work) {
+  const F f;
+  const VF infinity = hn::Set(f, kInfinity);
+  for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
+    const VF cost = hn::Load(f, work.costs.data() + i);
+    const auto hidden = hn::And(hn::Eq(cost, infinity), hn::Ge(hn::Load(f, work.shown_by.data() + i),
+                                                               hn::Set(f, static_cast<float>(options.min_views))));
+    hn::Store(hn::IfThenElse(hidden, hn::Set(f, static_cast<float>(options.hidden_cost)), cost), f,
+              work.costs.data() + i);
+  }
+}
 
 // Finds the views that show a segment at one plane, and where.
 HWY_INLINE void find_positions(const RunJob& job, int segment, double z, Workspace& work) {
   SegmentSamples& samples = work.samples;
   samples.count = 0;
   samples.all = true;
+  work.shown_by.fill(0);
   for (std::size_t v = 0; v < job.views->size(); ++v) {
     const ViewKernel& view = (*job.views)[v];
     Positions& positions = work.positions[samples.count];
@@ -45,6 +81,12 @@ HWY_INLINE void find_positions(const RunJob& job, int segment, double z, Workspa
       any = positions_of(view, work.knots[v], segment, positions, all);
     }
     if (!any) continue;
+    if (job.lowest_visible) {
+      add_shown(positions, work);
+      if (!keep_visible(job.lowest_visible + v * kRunCells + segment * kSegmentCells, static_cast<float>(z), positions,
+                        all))
+        continue;
+    }
     samples.all = samples.all && all;
     std::memcpy(samples.shown.data() + samples.count * kSegmentCells, positions.shown.data(), sizeof positions.shown);
     work.active[samples.count++] = &view;
@@ -54,13 +96,18 @@ HWY_INLINE void find_positions(const RunJob& job, int segment, double z, Workspa
 // Costs of one segment at one plane, into work.costs.
 HWY_INLINE void segment_costs(const RunJob& job, int segment, double z, Workspace& work) {
   find_positions(job, segment, z, work);
-  if (work.samples.count < job.options->min_views) return work.costs.fill(kInfinity);
+  if (work.samples.count < job.options->min_views) {
+    work.costs.fill(kInfinity);
+    if (job.lowest_visible) price_hidden(*job.options, work);
+    return;
+  }
   work.samples.levels = job.options->window_level_max - job.options->window_level_min + 1;
   for (int level = 0; level < work.samples.levels; ++level)
     for (int k = 0; k < work.samples.count; ++k)
       sample_segment(work.active[k]->levels[level], work.positions[k], work.samples.luminance_of(level, k));
   take_differences(work.samples, work.differences);
   aggregate_segment(work.samples, work.differences, *job.options, work.costs.data());
+  if (job.lowest_visible) price_hidden(*job.options, work);
 }
 
 // Where a segment stands among the ranges of its planes while k ascends.
@@ -226,12 +273,28 @@ void store(const RunState& state, int first_column, int row, int cells, MatchRes
   }
 }
 
+// Whether anything is hidden from any view in a run; and from where on the views see its cells.
+bool hides_from_run(const SweepProblem& problem, int column, int row, int cells, std::vector<float>& lowest_visible) {
+  if (!problem.visibility.any()) return false;
+  bool hides = false;
+  lowest_visible.assign(problem.views.size() * kRunCells, -std::numeric_limits<float>::infinity());
+  for (std::size_t v = 0; v < problem.views.size(); ++v) {
+    for (int i = 0; i < cells; ++i) {
+      const float lowest = problem.visibility.lowest_visible(static_cast<int>(v), column + i, row);
+      lowest_visible[v * kRunCells + i] = lowest;
+      hides = hides || lowest > -std::numeric_limits<float>::infinity();
+    }
+  }
+  return hides;
+}
+
 // Calls body(job, first column, row) for every run of cells that has planes.
 void for_each_run(const SweepProblem& problem, Executor& executor,
                   const std::function<void(const RunJob&, int, int)>& body) {
   std::vector<ViewKernel> views;
   for (const View& view : problem.views) views.push_back(make_view_kernel(view, problem.options));
   executor.parallel_for(problem.grid.height, [&](int row) {
+    std::vector<float> lowest_visible;
     for (int column = 0; column < problem.grid.width; column += kRunCells) {
       RunJob job{&views,
                  &problem.options,
@@ -244,7 +307,9 @@ void for_each_run(const SweepProblem& problem, Executor& executor,
         job.planes[segment] = &problem.planes_at(column + segment * kSegmentCells, row);
         any = any || !job.planes[segment]->empty();
       }
-      if (any) body(job, column, row);
+      if (!any) continue;
+      if (hides_from_run(problem, column, row, job.cells, lowest_visible)) job.lowest_visible = lowest_visible.data();
+      body(job, column, row);
     }
   });
 }

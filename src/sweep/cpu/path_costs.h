@@ -61,6 +61,7 @@ class PathRows {
 
  private:
   static constexpr int kMargin = kVolumeLanes;
+  static_assert(kMargin > kSteepestExpectedRise);
   struct Row {
     std::array<std::vector<Cost>, kPathsPerPass> values;
     std::array<std::vector<Cost>, kPathsPerPass> least;

@@ -62,7 +62,7 @@ namespace {
 // Step from a cell to the one before it on each path of the pass from the north; the pass from the south mirrors both.
 constexpr std::array<std::array<int, 2>, kPathsPerPass> kBefore = {{{-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
 
-void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, CostVolume& sums) {
+void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_south, Penalties penalties, CostVolume& sums) {
   const int width = costs.width(), height = costs.height();
   PathRows rows(width, costs.all_planes());
   const int sign = from_south ? -1 : 1;
@@ -85,7 +85,9 @@ void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, Cos
         const bool exists = before_column >= 0 && before_column < width && before_row >= 0 && before_row < height &&
                             !costs.planes_at(before_column, before_row).empty();
         const bool same_row = kBefore[path][1] == 0;
-        cell.before[path] = exists ? rows.values(path, before_column, same_row) : nullptr;
+        cell.before[path] = exists ? rows.values(path, before_column, same_row) -
+                                         problem.expected_rise(before_column, before_row, column, row).planes
+                                   : nullptr;
         cell.least_before[path] = exists ? rows.least(path, before_column, same_row) : Cost{0};
         cell.now[path] = rows.values(path, column, true);
       }
@@ -101,8 +103,8 @@ void add_pass(const CostVolume& costs, bool from_south, Penalties penalties, Cos
 CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
   CostVolume sums(problem, 0);
   const Penalties penalties = penalties_of(problem.options);
-  add_pass(costs, false, penalties, sums);
-  add_pass(costs, true, penalties, sums);
+  add_pass(problem, costs, false, penalties, sums);
+  add_pass(problem, costs, true, penalties, sums);
   return sums;
 }
 

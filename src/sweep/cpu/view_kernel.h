@@ -56,6 +56,7 @@ struct RunJob {
   double dz_m = 1;
   int cells = 0;
   std::array<const PlaneSet*, kSegmentsPerRun> planes{};  // of each segment; null beyond the last
+  const float* lowest_visible = nullptr;  // of each cell, kRunCells for each view; null: views see everything
 };
 
 }  // namespace skysweep::sweep::cpu

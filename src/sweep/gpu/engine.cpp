@@ -40,6 +40,7 @@ std::vector<std::pair<std::string, std::string>> shared_definitions() {
           {"WORST_COST", std::to_string(kWorstCost)},
           {"BEYOND_RANGE", std::to_string(kBeyondRange)},
           {"PATHS", std::to_string(kSmoothingPaths)},
+          {"STEEPEST_RISE", std::to_string(kSteepestExpectedRise)},
           {"RIVAL_DISTANCE", std::to_string(kRivalDistance)},
           {"SHARE_SLACK", decimal(kShareSlack)},
           {"SMALLEST_CONSENSUS", std::to_string(kSmallestConsensus)},

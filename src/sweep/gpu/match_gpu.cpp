@@ -24,6 +24,7 @@ using skysweep::gpu::Trouble;
 using Definitions = std::vector<std::pair<std::string, std::string>>;
 
 constexpr int kMatchIntegers = 7, kWinnerNumbers = 6;  // what the programs write for each cell
+constexpr float kEverything = -1e30f;                  // below every height: in place of an infinity
 constexpr float kNoCost = 1e30f, kNoFraction = 1e30f;  // and how they say that there is nothing
 
 // Runs `work` with the device current. A device that is lost meanwhile is not used again.
@@ -105,6 +106,37 @@ Definitions loops(int views, int levels) {
   return {{"ALL_VIEWS(f)", all_views}, {"ALL_PAIRS(f)", all_pairs}, {"ALL_LEVELS(f, v)", all_levels}};
 }
 
+// The horizons' cells that the problem's grid reaches into, from the first row of it on.
+int first_horizon_row(const VisibilityLimit& limit) { return limit.first_row / limit.times; }
+int horizon_width(const SweepProblem& problem) { return (problem.grid.width - 1) / problem.visibility.times + 1; }
+int horizon_height(const SweepProblem& problem) {
+  const VisibilityLimit& limit = problem.visibility;
+  return (limit.first_row + problem.grid.height - 1) / limit.times + 1 - first_horizon_row(limit);
+}
+
+// costs.glsl: Horizons. Empty where nothing is hidden.
+std::vector<float> horizons_of(const SweepProblem& problem) {
+  const VisibilityLimit& limit = problem.visibility;
+  std::vector<float> lowest;
+  if (!limit.any()) return lowest;
+  for (int v = 0; v < static_cast<int>(problem.views.size()); ++v)
+    for (int row = 0; row < horizon_height(problem); ++row)
+      for (int column = 0; column < horizon_width(problem); ++column)
+        lowest.push_back(
+            std::max(kEverything, limit.horizons->lowest_visible(v, column, first_horizon_row(limit) + row)));
+  return lowest;
+}
+
+void set_horizons(const SweepProblem& problem, Program& program) {
+  const VisibilityLimit& limit = problem.visibility;
+  if (!limit.any()) return;
+  program.set("horizon_times", limit.times);
+  program.set("horizon_first_row", limit.first_row - first_horizon_row(limit) * limit.times);
+  program.set("horizon_width", horizon_width(problem));
+  program.set("horizon_cells", horizon_width(problem) * horizon_height(problem));
+  program.set("hidden_cost", static_cast<float>(problem.options.hidden_cost));
+}
+
 const char* number_of(Aggregation aggregation) {
   switch (aggregation) {
     case Aggregation::all_views: return "0";
@@ -121,13 +153,15 @@ Program& cost_program(Engine& engine, const SweepProblem& problem, const std::st
   definitions.insert(definitions.end(), {{"VIEWS", std::to_string(problem.views.size())},
                                          {"LEVELS", std::to_string(window_levels(options))},
                                          {"AGGREGATION", number_of(options.aggregation)},
-                                         {"MIN_VIEWS", std::to_string(options.min_views)}});
+                                         {"MIN_VIEWS", std::to_string(options.min_views)},
+                                         {"HORIZONS", problem.visibility.any() ? "1" : "0"}});
   Program& program = engine.program({"costs.glsl", file}, definitions);
   program.set("texel_width", 1.0f / static_cast<float>(engine.photographs().texture().width()));
   program.set("texel_height", 1.0f / static_cast<float>(engine.photographs().texture().height()));
   program.set("few_views_penalty", static_cast<float>(options.few_views_penalty));
   if (options.aggregation == Aggregation::consensus)
     program.set("consensus_share", static_cast<float>(options.consensus_share));
+  set_horizons(problem, program);
   return program;
 }
 
@@ -150,6 +184,31 @@ struct Volume {
   Buffer blocks, slot_planes, ranges;
 };
 
+// smooth.comp, refine.comp: Expected.
+std::vector<std::array<std::int32_t, 2>> expected_of(const SweepProblem& problem) {
+  std::vector<std::array<std::int32_t, 2>> expected;
+  for (const float plane : problem.expected_plane)
+    expected.push_back({std::isnan(plane) ? kNoPlane : static_cast<std::int32_t>(std::lround(plane)),
+                        std::bit_cast<std::int32_t>(plane)});
+  return expected;
+}
+
+Definitions expectation(const SweepProblem& problem) {
+  return {{"EXPECTED", problem.expected_plane.empty() ? "0" : "1"}};
+}
+
+// What costs.glsl reads of the problem, beside the photographs.
+struct Inputs {
+  Inputs(Engine& engine, const SweepProblem& problem)
+      : layers(engine.photographs().layers_of(problem.views)),
+        geometry(engine.device(), geometry_of(problem)),
+        views(engine.device(), views_of(problem, layers)),
+        horizons(engine.device(), horizons_of(problem)) {}
+
+  std::vector<int> layers;
+  Buffer geometry, views, horizons;
+};
+
 // Too few views for any cost: there is nothing to compile a program for.
 bool nothing_to_match(const SweepProblem& problem) {
   return static_cast<int>(problem.views.size()) < problem.options.min_views;
@@ -157,15 +216,14 @@ bool nothing_to_match(const SweepProblem& problem) {
 
 Buffer& compute_costs(Engine& engine, const SweepProblem& problem, const Volume& volume) {
   Buffer& costs = engine.scratch(Scratch::costs, volume.bytes());
-  const std::vector<int> layers = engine.photographs().layers_of(problem.views);
-  const Buffer geometry(engine.device(), geometry_of(problem));
-  const Buffer views(engine.device(), views_of(problem, layers));
+  const Inputs inputs(engine, problem);
   const Buffer items(engine.device(), volume.layout.items);
   Program& program = cost_program(engine, problem, "match_costs.comp");
   set_grid(problem, program);
   program.set("item_count", static_cast<int>(volume.layout.items.size()));
   program.run(static_cast<std::int64_t>(volume.layout.items.size()),
-              {&geometry, &items, &volume.blocks, &costs}, &engine.photographs().texture(), &views);
+              {&inputs.geometry, &items, &volume.blocks, &costs, &inputs.horizons}, &engine.photographs().texture(),
+              &inputs.views);
   return costs;
 }
 
@@ -175,15 +233,18 @@ int planes_in_shared_memory(const SweepProblem& problem) {
 }
 
 bool fits_shared_memory(Engine& engine, const SweepProblem& problem) {
-  return (2 * (planes_in_shared_memory(problem) + 2) + 3) * static_cast<int>(sizeof(int)) <=
+  return (2 * (planes_in_shared_memory(problem) + 2 * (kSteepestExpectedRise + 1)) + 3) * static_cast<int>(sizeof(int)) <=
          engine.device().limits().shared_memory_bytes;
 }
 
-Buffer& compute_sums(Engine& engine, const SweepProblem& problem, const Volume& volume, const Buffer& costs) {
+Buffer& compute_sums(Engine& engine, const SweepProblem& problem, const Volume& volume, const Buffer& costs,
+                     const Buffer& expected) {
   Buffer& sums = engine.scratch(Scratch::sums, volume.bytes());
   sums.fill(0);
-  Program& program = engine.program({"smooth.comp"}, {{"PLANES", std::to_string(planes_in_shared_memory(problem))},
-                                                      {"THREADS", "64"}});
+  Definitions definitions = expectation(problem);
+  definitions.emplace_back("PLANES", std::to_string(planes_in_shared_memory(problem)));
+  definitions.emplace_back("THREADS", "64");
+  Program& program = engine.program({"smooth.comp"}, definitions);
   set_grid(problem, program);
   const Penalties penalties = penalties_of(problem.options);
   program.set("lowest_plane", problem.all_planes().first);
@@ -191,7 +252,7 @@ Buffer& compute_sums(Engine& engine, const SweepProblem& problem, const Volume& 
   program.set("large_penalty", penalties.large);
   const std::int64_t width = problem.grid.width, height = problem.grid.height;
   program.run(2 * height + 2 * width + 4 * (width + height - 1),
-              {&volume.blocks, &volume.slot_planes, &costs, &sums});
+              {&volume.blocks, &volume.slot_planes, &costs, &sums, &expected});
   return sums;
 }
 
@@ -233,15 +294,16 @@ MatchResult match_part(Engine& engine, const SweepProblem& problem) {
   if (!fits_shared_memory(engine, problem))
     throw DeviceError(Trouble::out_of_memory, "The planes of a path do not fit into the GPU's shared memory.");
   const Buffer& costs = compute_costs(engine, problem, volume);
-  const Buffer& sums = compute_sums(engine, problem, volume, costs);
+  const Buffer expected(engine.device(), expected_of(problem));
+  const Buffer& sums = compute_sums(engine, problem, volume, costs, expected);
   const std::size_t cells = static_cast<std::size_t>(problem.grid.width) * problem.grid.height;
   Buffer& matches = engine.scratch(Scratch::matches, cells * kMatchIntegers * sizeof(std::int32_t));
   run_by_blocks(problem, engine.program({"best_planes.comp"}, {}),
                 {&volume.blocks, &volume.slot_planes, &costs, &sums, &matches});
   if (problem.options.refinement_radius_cells > 0) {
-    Program& refine = engine.program({"refine.comp"}, {});
+    Program& refine = engine.program({"refine.comp"}, expectation(problem));
     refine.set("radius", problem.options.refinement_radius_cells);
-    run_by_blocks(problem, refine, {&volume.blocks, &volume.ranges, &costs, &matches});
+    run_by_blocks(problem, refine, {&volume.blocks, &volume.ranges, &costs, &matches, &expected});
   }
   return matches_from(problem, matches);
 }
@@ -281,9 +343,7 @@ MatchResult match_cell_by_cell(const SweepProblem& problem) {
   if (nothing_to_match(problem)) return {problem.grid.width, problem.grid.height};
   return on_device([&](Engine& engine) {
     const VolumeLayout layout(problem);
-    const std::vector<int> layers = engine.photographs().layers_of(problem.views);
-    const Buffer geometry(engine.device(), geometry_of(problem));
-    const Buffer views(engine.device(), views_of(problem, layers));
+    const Inputs inputs(engine, problem);
     const Buffer items(engine.device(), layout.items), items_of_blocks(engine.device(), layout.items_of_blocks);
     const std::size_t cells = static_cast<std::size_t>(problem.grid.width) * problem.grid.height;
     Buffer& winners = engine.scratch(Scratch::matches, cells * kWinnerNumbers * sizeof(std::int32_t));
@@ -291,7 +351,8 @@ MatchResult match_cell_by_cell(const SweepProblem& problem) {
     set_grid(problem, program);
     program.set("block_count", static_cast<int>(layout.blocks.size()));
     program.run(static_cast<std::int64_t>(layout.blocks.size()),
-                {&geometry, &items, &items_of_blocks, &winners}, &engine.photographs().texture(), &views);
+                {&inputs.geometry, &items, &items_of_blocks, &winners, &inputs.horizons},
+                &engine.photographs().texture(), &inputs.views);
     return winners_from(problem, winners);
   });
 }
@@ -304,7 +365,8 @@ CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
     const Volume volume(engine, problem);
     Buffer& given = engine.scratch(Scratch::costs, costs.bytes());
     given.write(costs.cell(0, 0), costs.bytes());
-    compute_sums(engine, problem, volume, given).read(sums.cell(0, 0), sums.bytes());
+    const Buffer expected(engine.device(), expected_of(problem));
+    compute_sums(engine, problem, volume, given, expected).read(sums.cell(0, 0), sums.bytes());
     return true;
   });
   return done ? sums : cpu::smooth(problem, costs);  // the same bits

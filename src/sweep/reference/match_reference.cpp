@@ -14,7 +14,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double cost_at(const SweepProblem& problem, int column, int row, int k) {
   if (!problem.planes_at(column, row).contains(k)) return kInfinity;
   const Vec2d cell = problem.grid.cell_center(column, row);
-  return matching_cost(sample_views(problem, {cell.x, cell.y, k * problem.dz_m}, nullptr), problem.options);
+  const Vec3d point{cell.x, cell.y, k * problem.dz_m};
+  if (!problem.visibility.any()) return matching_cost(sample_views(problem, point, nullptr), problem.options);
+  std::array<bool, kMaxViews> sees{};
+  for (std::size_t v = 0; v < problem.views.size(); ++v)
+    sees[v] = static_cast<float>(point.z) >= problem.visibility.lowest_visible(static_cast<int>(v), column, row);
+  const double cost = matching_cost(sample_views(problem, point, &sees), problem.options);
+  const bool shown = sample_views(problem, point, nullptr).count >= problem.options.min_views;
+  return cost == kInfinity && shown ? problem.options.hidden_cost : cost;
 }
 
 void match_cell(const SweepProblem& problem, int column, int row, MatchResult& result) {

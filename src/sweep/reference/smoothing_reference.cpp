@@ -24,7 +24,9 @@ struct PathCosts {
   int least() const { return *std::min_element(values.begin(), values.end()); }
 };
 
-PathCosts continue_path(const CostVolume& costs, int column, int row, const PathCosts* before, Penalties penalties) {
+// `rise`: planes that the surface is expected to rise from the cell before.
+PathCosts continue_path(const CostVolume& costs, int column, int row, const PathCosts* before, int rise,
+                        Penalties penalties) {
   PathCosts out{&costs.planes_at(column, row), {}};
   const bool begins = !before || before->planes->empty();
   for_each_stored_range(*out.planes, [&](StoredRange range) {
@@ -32,9 +34,10 @@ PathCosts continue_path(const CostVolume& costs, int column, int row, const Path
     for (int k = range.planes.first; k <= range.planes.last; ++k) {
       int value = *cost++;
       if (!begins) {
-        const int step = std::min(before->at(k - 1), before->at(k + 1)) + penalties.small;
+        const int same = k - rise;
+        const int step = std::min(before->at(same - 1), before->at(same + 1)) + penalties.small;
         const int jump = before->least() + penalties.large;
-        value += std::min({before->at(k), step, jump}) - before->least();
+        value += std::min({before->at(same), step, jump}) - before->least();
       }
       out.values.push_back(value);
     }
@@ -42,11 +45,12 @@ PathCosts continue_path(const CostVolume& costs, int column, int row, const Path
   return out;
 }
 
-void add_path(const CostVolume& costs, int column, int row, int dx, int dy, Penalties penalties, CostVolume& sums) {
+void add_path(const SweepProblem& problem, const CostVolume& costs, int column, int row, int dx, int dy, Penalties penalties, CostVolume& sums) {
   PathCosts before;
   for (bool first = true; column >= 0 && column < costs.width() && row >= 0 && row < costs.height();
        column += dx, row += dy, first = false) {
-    before = continue_path(costs, column, row, first ? nullptr : &before, penalties);
+    const int rise = first ? 0 : problem.expected_rise(column - dx, row - dy, column, row).planes;
+    before = continue_path(costs, column, row, first ? nullptr : &before, rise, penalties);
     auto value = before.values.begin();
     for_each_stored_range(*before.planes, [&](StoredRange range) {
       Cost* sum = sums.cell(column, row) + range.slot;
@@ -66,7 +70,7 @@ CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
     for (int row = 0; row <= bottom; ++row)
       for (int column = 0; column <= right; ++column)
         if (column - dx < 0 || column - dx > right || row - dy < 0 || row - dy > bottom)
-          add_path(costs, column, row, dx, dy, penalties, sums);
+          add_path(problem, costs, column, row, dx, dy, penalties, sums);
   }
   return sums;
 }

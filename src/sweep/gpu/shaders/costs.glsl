@@ -30,6 +30,14 @@ layout(binding = 0) uniform sampler2DArray atlas;
 uniform float texel_width, texel_height;  // of the atlas, which is 1 wide and high
 uniform float few_views_penalty;          // grey levels
 uniform float consensus_share;
+#if HORIZONS
+// The lowest height that each view sees past the surface (sweep/horizons.h), view after view, row by row.
+layout(std430, binding = 4) readonly buffer Horizons { float lowest_visible[]; };
+uniform int horizon_times;      // cells along one of theirs
+uniform int horizon_first_row;  // of the grid, in cells of the grid, from their first one
+uniform int horizon_width, horizon_cells;
+uniform float hidden_cost;
+#endif
 
 const int VIEW_NUMBERS = 22;
 
@@ -139,10 +147,13 @@ float shown[VIEWS];               // 1 or 0
 float cost[VIEWS];                // C_k
 vec4 exact[VIEWS];                // positions of views whose place is CELL_BY_CELL
 float n;                          // views that show it
+float hidden;                     // and those from which it would be seen, did nothing stand between
 float mean, limit, used, per_reach, weights, squares;
 vec4 position;
 int place_number;
 vec2 from_middle;
+int horizon_cell;
+float height;
 
 // Bilinear luminance, 0 to 1, with weights of full precision: the four pixels come in one gather, addressed by the
 // corner that they share.
@@ -164,6 +175,12 @@ void sample_view(int v) {
   Place place = places[place_number + v];
   position = place.depth > 0 ? position_by_differences(v, place, from_middle) : vec4(NOT_SHOWN, 0, 0, 0);
   if (place.depth < 0) position = exact[v];
+#if HORIZONS
+  if (position.x > NOT_SHOWN && !(height >= lowest_visible[v * horizon_cells + horizon_cell])) {
+    position.x = NOT_SHOWN;
+    ++hidden;
+  }
+#endif
   shown[v] = position.x > NOT_SHOWN ? 1 : 0;
   cost[v] = 0;
   n += shown[v];
@@ -217,15 +234,23 @@ void add_lowest() {
   }
 }
 
-// AC of the cell at a plane, the number `p` of `places`, grey levels; NO_COST with fewer than MIN_VIEWS views. Sums run
+// AC of the cell at a plane, the number `p` of `places`, grey levels; NO_COST with fewer than MIN_VIEWS views, the
+// hidden cost if there would be enough that are hidden. Sums run
 // over window levels and other views, in units of 65535 / 256 grey levels.
 float matching_cost(int p, ivec2 cell, int plane) {
-  n = mean = limit = weights = squares = 0;
+  n = hidden = mean = limit = weights = squares = 0;
+#if HORIZONS
+  height = float(double(plane) * geometry[3]);
+  horizon_cell = (horizon_first_row + cell.y) / horizon_times * horizon_width + cell.x / horizon_times;
+#endif
   place_number = p * VIEWS;
   from_middle = vec2(gl_LocalInvocationID.xy) + (0.5 - BLOCK / 2);
   for (int v = 0; v < VIEWS; ++v)
     if (places[place_number + v].depth < 0) exact[v] = position_in_double(v, cell, plane);
   ALL_VIEWS(sample_view)
+#if HORIZONS
+  if (n < MIN_VIEWS && n + hidden >= MIN_VIEWS) return hidden_cost;
+#endif
   if (n < MIN_VIEWS) return NO_COST;
   ALL_PAIRS(add_difference)
   const float unit = 65535.0 / (256.0 * LEVELS);

@@ -7,6 +7,10 @@ layout(std430, binding = 0) readonly buffer Blocks { int blocks[]; };
 layout(std430, binding = 1) readonly buffer Ranges { int ranges[]; };
 layout(std430, binding = 2) readonly buffer Volume { int costs[]; };
 layout(std430, binding = 3) buffer Matches { int matches[]; };
+#if EXPECTED
+// Of each cell the plane expected there as a whole number, or NO_PLANE, and not rounded.
+layout(std430, binding = 4) readonly buffer Expected { ivec2 expected[]; };
+#endif
 uniform int width, height, blocks_across, radius;
 
 const int SAME_SURFACE_PLANES = 3;
@@ -14,7 +18,23 @@ const int SAME_SURFACE_PLANES = 3;
 // Three sums in two halves each, so that they are exact.
 struct Triple {
   uvec3 low, high;
+  float rise_error;  // of the cells that were added up
+  int cells;
 };
+
+// SweepProblem::expected_rise: whole planes, and what they leave out.
+int expected_rise(ivec2 from, ivec2 to, out float error) {
+  error = 0;
+#if EXPECTED
+  ivec2 before = expected[from.y * width + from.x], after = expected[to.y * width + to.x];
+  int rise = after.x - before.x;
+  if (before.x == NO_PLANE || after.x == NO_PLANE || abs(rise) > STEEPEST_RISE * radius) return 0;
+  error = intBitsToFloat(after.y) - intBitsToFloat(before.y) - float(rise);
+  return rise;
+#else
+  return 0;
+#endif
+}
 
 // Element of the cell's value at plane k; -1 unless k and its neighbours lie in one range.
 int element_between_neighbours(ivec2 cell, int k) {
@@ -27,23 +47,30 @@ int element_between_neighbours(ivec2 cell, int k) {
   return -1;
 }
 
-dvec3 costs_around(ivec2 middle, int plane) {
-  Triple triple = Triple(uvec3(0), uvec3(0));
+Triple costs_around(ivec2 middle, int plane) {
+  Triple triple = Triple(uvec3(0), uvec3(0), 0, 0);
   ivec2 first = max(middle - radius, ivec2(0)), last = min(middle + radius, ivec2(width, height) - 1);
   for (int y = first.y; y <= last.y; ++y) {
     for (int x = first.x; x <= last.x; ++x) {
       int match = (y * width + x) * MATCH_INTEGERS;
-      if (!(intBitsToFloat(matches[match + 1]) < NO_COST) || abs(matches[match] - plane) > SAME_SURFACE_PLANES) continue;
-      int at = element_between_neighbours(ivec2(x, y), plane);
+      if (!(intBitsToFloat(matches[match + 1]) < NO_COST)) continue;
+      float error;
+      int same = plane + expected_rise(middle, ivec2(x, y), error);
+      if (abs(matches[match] - same) > SAME_SURFACE_PLANES) continue;
+      int at = element_between_neighbours(ivec2(x, y), same);
       if (at < 0) continue;
       ivec3 cost = ivec3(costs[at - 1], costs[at], costs[at + 1]);
       if (cost.x == WORST_COST || cost.z == WORST_COST) continue;
       triple.low += uvec3(cost) & 0xFFFFu;
       triple.high += uvec3(cost) >> 16;
+      triple.rise_error += error;
+      ++triple.cells;
     }
   }
-  return dvec3(triple.high) * 65536.0lf + dvec3(triple.low);
+  return triple;
 }
+
+dvec3 sums_of(Triple triple) { return dvec3(triple.high) * 65536.0lf + dvec3(triple.low); }
 
 void main() {
   int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
@@ -52,12 +79,17 @@ void main() {
   int match = (cell.y * width + cell.x) * MATCH_INTEGERS;
   if (intBitsToFloat(matches[match + 3]) == NO_FRACTION) return;
   int plane = matches[match];
-  dvec3 sum = costs_around(cell, plane);
+  Triple around = costs_around(cell, plane);
+  dvec3 sum = sums_of(around);
   int step = sum.x < sum.y ? -1 : sum.z < sum.y ? 1 : 0;
-  if (step != 0) sum = costs_around(cell, plane + step);
+  if (step != 0) {
+    around = costs_around(cell, plane + step);
+    sum = sums_of(around);
+  }
   double bend = sum.x - 2.0lf * sum.y + sum.z, rise = max(sum.x, sum.z) - sum.y;
   if (!(bend > 0.0lf && rise > 0.0lf)) return;
   double lean = 0.5lf * (sum.x - sum.z);
   double vertex = clamp(0.5lf * (lean / bend + lean / rise), -0.5lf, 0.5lf);
-  matches[match + 3] = floatBitsToInt(float(double(step) + vertex));
+  double mean_error = around.cells > 0 ? double(around.rise_error) / double(around.cells) : 0.0lf;
+  matches[match + 3] = floatBitsToInt(float(double(step) - mean_error + vertex));
 }

@@ -10,12 +10,29 @@ layout(std430, binding = 0) readonly buffer Blocks { int blocks[]; };
 layout(std430, binding = 1) readonly buffer SlotPlanes { int slot_planes[]; };
 layout(std430, binding = 2) readonly buffer Volume { int costs[]; };
 layout(std430, binding = 3) buffer Sums { int sums[]; };
+#if EXPECTED
+// Of each cell the plane expected there as a whole number, or NO_PLANE, and not rounded.
+layout(std430, binding = 4) readonly buffer Expected { ivec2 expected[]; };
+#endif
 uniform int width, height, blocks_across, lowest_plane, small_penalty, large_penalty;
 
-// Path costs of the cell in work and of the one before, by plane from the lowest of all on, between margins of one.
-shared int path[2][PLANES + 2];
+// Path costs of the cell in work and of the one before, by plane from the lowest of all on, between margins that
+// neighbouring planes and expected rises reach into.
+const int MARGIN = STEEPEST_RISE + 1;
+shared int path[2][PLANES + 2 * MARGIN];
 // Their least, of the cell in work, the one before and the one after in turn.
 shared int least[3];
+
+// SweepProblem::expected_rise from the cell before.
+int expected_rise(ivec2 before, ivec2 cell) {
+#if EXPECTED
+  int from = expected[before.y * width + before.x].x, to = expected[cell.y * width + cell.x].x;
+  if (from == NO_PLANE || to == NO_PLANE || abs(to - from) > STEEPEST_RISE) return 0;
+  return to - from;
+#else
+  return 0;
+#endif
+}
 
 // First cell and step of path number `group`: rows both ways, columns both ways, then the four diagonals.
 void find_path(int group, out ivec2 cell, out ivec2 by) {
@@ -47,7 +64,7 @@ void main() {
   find_path(group, cell, by);
   bool pads = group < height;  // each cell lies on one path to the east: this one writes its padding, too
   int thread = int(gl_LocalInvocationID.x);
-  for (int i = thread; i < PLANES + 2; i += THREADS) path[0][i] = path[1][i] = BEYOND_RANGE;
+  for (int i = thread; i < PLANES + 2 * MARGIN; i += THREADS) path[0][i] = path[1][i] = BEYOND_RANGE;
   if (thread == 0) least[0] = least[1] = least[2] = BEYOND_RANGE;
   barrier();
   bool begun = false;        // the cell before has path costs
@@ -60,24 +77,26 @@ void main() {
     last_block = block;
     // The first two cells of a block find the planes of other blocks where they write.
     if (cells_in_block < 2) {
-      for (int i = thread; i < PLANES + 2; i += THREADS) path[now][i] = BEYOND_RANGE;
+      for (int i = thread; i < PLANES + 2 * MARGIN; i += THREADS) path[now][i] = BEYOND_RANGE;
       barrier();
     }
     int at = block * BLOCK_INTEGERS, slots = blocks[at + 2];
     int element = blocks[at] + (cell.y % BLOCK) * blocks[at + 1] + (cell.x % BLOCK) * slots;
     int least_before = begun ? least[(step + 2) % 3] : 0;
     int least_here = BEYOND_RANGE;
+    int rise = begun ? expected_rise(cell - by, cell) : 0;
     for (int slot = thread; slot < slots; slot += THREADS) {
       int plane = slot_planes[blocks[at + 3] + slot];
       if (plane == NO_PLANE) {
         if (pads) sums[element + slot] = BEYOND_RANGE;
         continue;
       }
-      int k = plane - lowest_plane + 1;
+      int k = plane - lowest_plane + MARGIN;
       int value = costs[element + slot];
       if (begun) {
-        int neighbour = min(path[before][k - 1], path[before][k + 1]) + small_penalty;
-        value += min(min(path[before][k], neighbour), least_before + large_penalty) - least_before;
+        int same = k - rise;
+        int neighbour = min(path[before][same - 1], path[before][same + 1]) + small_penalty;
+        value += min(min(path[before][same], neighbour), least_before + large_penalty) - least_before;
       }
       path[now][k] = value;
       least_here = min(least_here, value);
