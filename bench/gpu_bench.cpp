@@ -2,7 +2,8 @@
 // Throughput of the gpu backend on the machine's device, in luminance samples a second (cells x planes x views x window
 // levels), beside the device's ceiling measured in the same run: programs that do nothing but sample the same
 // photographs at the same places, exactly as the sweep does (four pixels gathered, weighed in single precision), and
-// through the hardware's filter. Times are those of the wall clock with the device finished. Run: build/release/bench/gpu_bench
+// through the hardware's filter. Times are those of the wall clock with the device finished. Run:
+// build/release/bench/gpu_bench
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -132,9 +133,8 @@ BENCHMARK_CAPTURE(cell_by_cell, gpu, Backend::gpu)->UseRealTime()->Unit(benchmar
 BENCHMARK_CAPTURE(cell_by_cell, one_cpu_core, Backend::cpu)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void with_smoothing(benchmark::State& state, Backend backend) {
-  bench_matching(state, [&](const SweepProblem& problem, Executor& executor) {
-    return match_planes(problem, backend, executor);
-  });
+  bench_matching(
+      state, [&](const SweepProblem& problem, Executor& executor) { return match_planes(problem, backend, executor); });
 }
 BENCHMARK_CAPTURE(with_smoothing, gpu, Backend::gpu)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(with_smoothing, one_cpu_core, Backend::cpu)->UseRealTime()->Unit(benchmark::kMillisecond);

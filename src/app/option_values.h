@@ -13,10 +13,10 @@
 
 namespace skysweep::app {
 
-Vec3d parse_origin(const std::string& text);                     // "X,Y,Z"
-Box2d parse_area(const std::string& text);                       // "x0,y0,x1,y1"
-sweep::HeightRange parse_height_range(const std::string& text);  // "a,b"
-std::size_t parse_memory(const std::string& text);               // "4GiB", "800MiB", "2GB"
+Vec3d parse_origin(const std::string& text);                           // "X,Y,Z"
+Box2d parse_area(const std::string& text);                             // "x0,y0,x1,y1"
+sweep::HeightRange parse_height_range(const std::string& text);        // "a,b"
+std::size_t parse_memory(const std::string& text);                     // "4GiB", "800MiB", "2GB"
 std::optional<sweep::Backend> parse_backend(const std::string& text);  // nothing for "auto"
 
 // The value itself if it is a positive, finite number.

@@ -47,8 +47,7 @@ bool lists(const char* extensions, const char* extension) {
 
 std::optional<std::string> missing_library() {
   if (!has_library({"libEGL.so.1"})) return "There is no EGL library (libEGL.so.1) on this machine.";
-  if (!has_library({"libOpenGL.so.0", "libGL.so.1"}))
-    return "There is no OpenGL library (libGL.so.1) on this machine.";
+  if (!has_library({"libOpenGL.so.0", "libGL.so.1"})) return "There is no OpenGL library (libGL.so.1) on this machine.";
   return std::nullopt;
 }
 

@@ -9,8 +9,8 @@
 
 namespace skysweep::sweep {
 
-// For each cell of `problem`, in its planes, the slope through the sure heights around it in `found`, which was searched on
-// cells and planes `times` as large, 1 or 2; NaN where the cell's own height is not sure.
+// For each cell of `problem`, in its planes, the slope through the sure heights around it in `found`, which was
+// searched on cells and planes `times` as large, 1 or 2; NaN where the cell's own height is not sure.
 Array2d<float> expected_planes(const MatchResult& found, int times, const SweepProblem& problem);
 
 }  // namespace skysweep::sweep

@@ -18,11 +18,11 @@ struct Grid;
 struct View;
 
 struct HorizonQuestion {
-  const Array2d<float>& surface_m;  // heights that hide; NaN cells hide nothing
+  const Array2d<float>& surface_m;      // heights that hide; NaN cells hide nothing
   const Array2d<std::uint8_t>& wanted;  // cells to work out; from the others everything is seen
-  double lowest_m = 0;              // nobody asks for heights below
-  double tolerance_m = 0;           // the surface hides only what lies more than this below the line over it
-  int skipped_cells = 0;            // what stands so near to the cell itself hides nothing: edges are not that well known
+  double lowest_m = 0;                  // nobody asks for heights below
+  double tolerance_m = 0;               // the surface hides only what lies more than this below the line over it
+  int skipped_cells = 0;  // what stands so near to the cell itself hides nothing: edges are not that well known
 };
 
 class Horizons {

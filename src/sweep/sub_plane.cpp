@@ -55,9 +55,10 @@ double refined_fraction(const SweepProblem& problem, const CostVolume& costs, co
   if (step != 0) around = costs_around(problem, costs, result, column, row, best + step);
   const auto [below, middle, above] = around.sum;
   const double mean_rise_error = around.cells > 0 ? around.rise_error / around.cells : 0;
-  return step - mean_rise_error + std::clamp(sub_plane_vertex(static_cast<double>(below), static_cast<double>(middle),
-                                            static_cast<double>(above)),
-                           -0.5, 0.5);
+  return step - mean_rise_error +
+         std::clamp(
+             sub_plane_vertex(static_cast<double>(below), static_cast<double>(middle), static_cast<double>(above)),
+             -0.5, 0.5);
 }
 
 }  // namespace

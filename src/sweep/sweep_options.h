@@ -49,8 +49,8 @@ struct SweepOptions {
   // Smoothing follows the slopes that the finest of the coarser grids found where it is sure.
   bool follow_slopes = true;
 
-  // What a height costs that fewer than min_views views see past the sure surface, grey levels: neither likely nor ruled
-  // out.
+  // What a height costs that fewer than min_views views see past the sure surface, grey levels: neither likely nor
+  // ruled out.
   double hidden_cost = 8;
 
   Aggregation aggregation = Aggregation::consensus;

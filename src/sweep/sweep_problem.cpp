@@ -42,7 +42,7 @@ PlaneRange SweepProblem::all_planes() const {
 }
 
 SweepProblem::Rise SweepProblem::expected_rise(int from_column, int from_row, int to_column, int to_row,
-                                int apart) const {
+                                               int apart) const {
   if (expected_plane.empty()) return {};
   const float from = expected_plane(from_column, from_row), to = expected_plane(to_column, to_row);
   if (std::isnan(from) || std::isnan(to)) return {};

@@ -62,8 +62,8 @@ struct SweepProblem {
   Array2d<PlaneSet> block_planes;
   std::vector<View> views;  // their order decides ties: keep it independent of arrival order
   VisibilityLimit visibility;
-  // Where a smooth surface is expected in each cell, in planes: smoothing counts steps from the nearest. NaN: nothing is
-  // expected there; empty: nowhere.
+  // Where a smooth surface is expected in each cell, in planes: smoothing counts steps from the nearest. NaN: nothing
+  // is expected there; empty: nowhere.
   Array2d<float> expected_plane;
   SweepOptions options;
 

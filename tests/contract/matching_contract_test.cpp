@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every backend, the cpu on every instruction set the machine has, the gpu on its device, must find what the scalar double-precision reference finds:
-// heights within 1e-3 of a plane step on 99.99 % of the cells, and a height where, and only where, the reference has
-// one.
+// Every backend, the cpu on every instruction set the machine has, the gpu on its device, must find what the scalar
+// double-precision reference finds: heights within 1e-3 of a plane step on 99.99 % of the cells, and a height where,
+// and only where, the reference has one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -136,10 +136,9 @@ std::vector<ContractCase> cases() {
            for (int x = 15; x < 22; ++x) surface(x, y) = 2.5f;
          const Array2d<std::uint8_t> everywhere(40, 40, 1);
          SerialExecutor serial;
-         p.problem.visibility = {
-             std::make_shared<const Horizons>(half, p.problem.views, HorizonQuestion{surface, everywhere, -3, 0.1, 0},
-                                              serial),
-             2, 0};
+         p.problem.visibility = {std::make_shared<const Horizons>(
+                                     half, p.problem.views, HorizonQuestion{surface, everywhere, -3, 0.1, 0}, serial),
+                                 2, 0};
          p.problem.options.min_views = 3;
          return p;
        }},

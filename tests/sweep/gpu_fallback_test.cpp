@@ -65,8 +65,7 @@ TEST_F(GpuFallback, every_thread_gets_the_same_bits) {
   const MatchResult alone = match_planes(p.problem, Backend::gpu, serial);
   std::vector<MatchResult> together(3);
   ThreadExecutor(3).parallel_for(3, [&](int i) { together[i] = match_planes(p.problem, Backend::gpu, serial); });
-  for (const MatchResult& result : together)
-    EXPECT_TRUE(result.plane == alone.plane && result.cost == alone.cost);
+  for (const MatchResult& result : together) EXPECT_TRUE(result.plane == alone.plane && result.cost == alone.cost);
   EXPECT_TRUE(told.empty());
 }
 

@@ -62,7 +62,8 @@ namespace {
 // Step from a cell to the one before it on each path of the pass from the north; the pass from the south mirrors both.
 constexpr std::array<std::array<int, 2>, kPathsPerPass> kBefore = {{{-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
 
-void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_south, Penalties penalties, CostVolume& sums) {
+void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_south, Penalties penalties,
+              CostVolume& sums) {
   const int width = costs.width(), height = costs.height();
   PathRows rows(width, costs.all_planes());
   const int sign = from_south ? -1 : 1;

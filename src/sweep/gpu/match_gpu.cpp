@@ -233,7 +233,8 @@ int planes_in_shared_memory(const SweepProblem& problem) {
 }
 
 bool fits_shared_memory(Engine& engine, const SweepProblem& problem) {
-  return (2 * (planes_in_shared_memory(problem) + 2 * (kSteepestExpectedRise + 1)) + 3) * static_cast<int>(sizeof(int)) <=
+  return (2 * (planes_in_shared_memory(problem) + 2 * (kSteepestExpectedRise + 1)) + 3) *
+             static_cast<int>(sizeof(int)) <=
          engine.device().limits().shared_memory_bytes;
 }
 
@@ -380,8 +381,7 @@ MatchResult match_planes(const SweepProblem& problem) {
     limited.options.volume_limit_mib =
         std::min(problem.options.volume_limit_mib,
                  static_cast<int>(std::min<std::int64_t>(engine.device().limits().storage_block_bytes >> 20, 1 << 20)));
-    for (const Band& band : bands_within(limited))
-      copy_core(match_part(engine, part_of(problem, band)), band, result);
+    for (const Band& band : bands_within(limited)) copy_core(match_part(engine, part_of(problem, band)), band, result);
     return std::move(result);
   });
 }

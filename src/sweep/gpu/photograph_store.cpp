@@ -66,8 +66,8 @@ void PhotographStore::make_room(int width, int height, const std::vector<View>& 
   const int has = static_cast<int>(layers_.size());
   if (texture_ && needed <= has) return;
   const std::size_t layer_bytes = sizeof(std::uint16_t) * width * height;
-  const int most = static_cast<int>(std::min<std::size_t>(
-      std::max(limit_bytes_ / layer_bytes, wanted.size()), static_cast<std::size_t>(device_.limits().texture_layers)));
+  const int most = static_cast<int>(std::min<std::size_t>(std::max(limit_bytes_ / layer_bytes, wanted.size()),
+                                                          static_cast<std::size_t>(device_.limits().texture_layers)));
   const int count = std::max(1, std::min(most, std::max(needed, 2 * has)));
   if (texture_ && count <= has) return;
   skysweep::gpu::TextureArray larger(device_, width, height, count);

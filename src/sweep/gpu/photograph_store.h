@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The photographs that are on the device: each is uploaded once, with all its mipmap levels side by side in one layer of
-// a texture, and stays until others need the room.
+// The photographs that are on the device: each is uploaded once, with all its mipmap levels side by side in one layer
+// of a texture, and stays until others need the room.
 //
 // Levels are not the texture's own because the sweep samples exactly: it gathers four pixels and weighs them in single
-// precision, and textureGather reads one level only. The filter's weights have 8 bits on real GPUs (docs/decisions/0010).
+// precision, and textureGather reads one level only. The filter's weights have 8 bits on real GPUs
+// (docs/decisions/0010).
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,8 @@ LayerLayout layer_layout(const ImagePyramid& image);
 class PhotographStore {
  public:
   // `limit_bytes`: most that the texture takes, or as many layers as one problem has views, if that is more.
-  PhotographStore(skysweep::gpu::Device& device, std::size_t limit_bytes) : device_(device), limit_bytes_(limit_bytes) {}
+  PhotographStore(skysweep::gpu::Device& device, std::size_t limit_bytes)
+      : device_(device), limit_bytes_(limit_bytes) {}
 
   // Layers of the views' photographs, all there until the next call. Throws gpu::DeviceError if they do not fit.
   std::vector<int> layers_of(const std::vector<View>& views);

@@ -16,8 +16,7 @@ void add_range(int block, const StoredRange& range, VolumeLayout& layout) {
   layout.ranges.push_back({range.planes.first, count, range.slot});
   for (int i = 0; i < padded; ++i) layout.slot_planes.push_back(i < count ? range.planes.first + i : kNoPlane);
   for (int i = 0; i < padded; i += kPlanesPerItem)
-    layout.items.push_back(
-        {block, range.planes.first + i, std::clamp(count - i, 0, kPlanesPerItem), range.slot + i});
+    layout.items.push_back({block, range.planes.first + i, std::clamp(count - i, 0, kPlanesPerItem), range.slot + i});
 }
 
 }  // namespace
@@ -42,8 +41,8 @@ VolumeLayout::VolumeLayout(const SweepProblem& problem) {
       for_each_stored_range(planes, [&](StoredRange range) { add_range(first_block + bx, range, *this); });
       items_of_blocks.push_back({first_item, static_cast<int>(items.size())});
       blocks.push_back(block);
-      in_row += static_cast<std::size_t>(std::min(kBlockCells, problem.grid.width - bx * kBlockCells)) *
-                block.cell_elements;
+      in_row +=
+          static_cast<std::size_t>(std::min(kBlockCells, problem.grid.width - bx * kBlockCells)) * block.cell_elements;
     }
     for (int bx = 0; bx < block_planes.width(); ++bx) blocks[first_block + bx].row_elements = static_cast<int>(in_row);
     elements += in_row * std::min(kBlockCells, problem.grid.height - by * kBlockCells);

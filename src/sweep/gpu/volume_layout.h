@@ -11,7 +11,7 @@
 
 namespace skysweep::sweep::on_gpu {
 
-constexpr int kPlanesPerItem = 8;   // a thread writes the costs of so many planes side by side
+constexpr int kPlanesPerItem = 8;     // a thread writes the costs of so many planes side by side
 constexpr int kNoPlane = -(1 << 30);  // in slot_planes: padding
 
 struct BlockLayout {

@@ -45,7 +45,8 @@ PathCosts continue_path(const CostVolume& costs, int column, int row, const Path
   return out;
 }
 
-void add_path(const SweepProblem& problem, const CostVolume& costs, int column, int row, int dx, int dy, Penalties penalties, CostVolume& sums) {
+void add_path(const SweepProblem& problem, const CostVolume& costs, int column, int row, int dx, int dy,
+              Penalties penalties, CostVolume& sums) {
   PathCosts before;
   for (bool first = true; column >= 0 && column < costs.width() && row >= 0 && row < costs.height();
        column += dx, row += dy, first = false) {

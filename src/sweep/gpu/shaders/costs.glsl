@@ -153,7 +153,7 @@ vec4 position;
 int place_number;
 vec2 from_middle;
 int horizon_cell;
-float height;
+float height_m;  // of the plane
 
 // Bilinear luminance, 0 to 1, with weights of full precision: the four pixels come in one gather, addressed by the
 // corner that they share.
@@ -176,7 +176,7 @@ void sample_view(int v) {
   position = place.depth > 0 ? position_by_differences(v, place, from_middle) : vec4(NOT_SHOWN, 0, 0, 0);
   if (place.depth < 0) position = exact[v];
 #if HORIZONS
-  if (position.x > NOT_SHOWN && !(height >= lowest_visible[v * horizon_cells + horizon_cell])) {
+  if (position.x > NOT_SHOWN && !(height_m >= lowest_visible[v * horizon_cells + horizon_cell])) {
     position.x = NOT_SHOWN;
     ++hidden;
   }
@@ -240,7 +240,7 @@ void add_lowest() {
 float matching_cost(int p, ivec2 cell, int plane) {
   n = hidden = mean = limit = weights = squares = 0;
 #if HORIZONS
-  height = float(double(plane) * geometry[3]);
+  height_m = float(double(plane) * geometry[3]);
   horizon_cell = (horizon_first_row + cell.y) / horizon_times * horizon_width + cell.x / horizon_times;
 #endif
   place_number = p * VIEWS;
