@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "sweep/normalization.h"
+
 namespace skysweep::sweep {
 
 // More views than this cannot serve one tile: their costs are kept side by side on the stack.
@@ -32,6 +34,10 @@ struct SweepOptions {
   // photographs of different exposure and surfaces of different contrast compare; 0: as photographed, the classic cost.
   int normalization_radius_px = 5;
 
+  // Only pixels that differ by at most so many grey levels from the one in the middle count for its normalisation: what
+  // lies beyond an edge does not. 0: all count.
+  int normalization_tolerance = 0;
+
   // Coarser grids that are searched first, each with cells twice as large as the next: the first everywhere, the others
   // and the fine one only near what it found; 0: everywhere at once (sweep/coarse_to_fine.h).
   int coarse_levels = 0;
@@ -48,6 +54,10 @@ struct SweepOptions {
 
   // Smoothing follows the slopes that the finest of the coarser grids found where it is sure.
   bool follow_slopes = true;
+
+  // Between neighbouring cells that differ by more grey levels than this, seen from above, P2 falls in proportion, down
+  // to a quarter; 0: it is the same everywhere.
+  double edge_contrast = 12;
 
   // What a height costs that fewer than min_views views see past the sure surface, grey levels: neither likely nor
   // ruled out.
@@ -94,6 +104,8 @@ struct SweepOptions {
 
   // Colour for cells without height from a horizontal plane at the lowest height searched; marked as such in the mask.
   bool planar_fallback = false;
+
+  Normalization normalization() const { return {normalization_radius_px, normalization_tolerance}; }
 
   std::optional<std::string> problem() const;
   friend bool operator==(const SweepOptions&, const SweepOptions&) = default;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "sweep/similar_normalization.h"
+
 namespace skysweep::sweep {
 
 std::optional<std::string> SweepOptions::problem() const {
@@ -13,10 +15,17 @@ std::optional<std::string> SweepOptions::problem() const {
   if (coarse_levels < 0 || coarse_levels > 6) return "coarse_levels must lie between 0 (search everywhere) and 6";
   if (!(rival_tolerance >= 0 && rival_tolerance <= 60)) return "rival_tolerance must lie between 0 and 60 grey levels";
   if (visibility_passes < 0 || visibility_passes > 8) return "visibility_passes must lie between 0 and 8";
+  if (!(edge_contrast >= 0 && edge_contrast <= 255))
+    return "edge_contrast must lie between 0 (off) and 255 grey levels";
   if (!(sure_excess >= 0)) return "sure_excess must be 0 or more (grey levels)";
   if (!(hidden_cost >= 0 && hidden_cost <= 60)) return "hidden_cost must lie between 0 and 60 grey levels";
   if (normalization_radius_px < 0 || normalization_radius_px > 100)
     return "normalization_radius_px must lie between 0 (off) and 100";
+  if (normalization_tolerance < 0 || normalization_tolerance > 255)
+    return "normalization_tolerance must lie between 0 (off) and 255 grey levels";
+  if (normalization_tolerance > 0 && (normalization_radius_px < 1 || normalization_radius_px > kLargestSimilarRadius))
+    return "normalization_tolerance needs a normalization_radius_px between 1 and " +
+           std::to_string(kLargestSimilarRadius);
   if (!(consensus_share > 0 && consensus_share <= 1)) return "consensus_share must lie above 0 and not above 1";
   if (!(small_step_penalty >= 0 && large_step_penalty >= small_step_penalty && large_step_penalty <= 60))
     return "penalties must satisfy 0 <= small_step_penalty <= large_step_penalty <= 60 grey levels";
@@ -53,6 +62,7 @@ SweepProblem::Rise SweepProblem::expected_rise(int from_column, int from_row, in
 
 void SweepProblem::check() const {
   SKY_CHECK(grid.width > 0 && grid.height > 0 && grid.cell_m > 0 && dz_m > 0);
+  SKY_CHECK(collar_cells >= 0 && 2 * collar_cells < std::min(grid.width, grid.height));
   SKY_CHECK_LE(views.size(), static_cast<std::size_t>(kMaxViews));
   SKY_CHECK_EQ(block_planes.width(), blocks_across(grid.width));
   SKY_CHECK_EQ(block_planes.height(), blocks_across(grid.height));

@@ -57,6 +57,7 @@ constexpr int kSteepestExpectedRise = 6;  // planes from a cell to the next: mor
 
 struct SweepProblem {
   Grid grid;
+  int collar_cells = 0;  // along the grid's border: swept for what they hide and steady, and not coloured
   double dz_m = 1;
   // Of each block, (0, 0) the north-west one; blocks without planes leave their cells without height.
   Array2d<PlaneSet> block_planes;
@@ -65,6 +66,8 @@ struct SweepProblem {
   // Where a smooth surface is expected in each cell, in planes: smoothing counts steps from the nearest. NaN: nothing
   // is expected there; empty: nowhere.
   Array2d<float> expected_plane;
+  // The place as it looks from above (guide_image.h): steps are cheaper at its edges. Empty: nothing is known.
+  Array2d<std::uint8_t> guide;
   SweepOptions options;
 
   // All blocks search the same planes.

@@ -21,7 +21,7 @@ void continue_paths(const CellUpdate& cell) {
   for (int direction = 0; direction < kPathsPerPass; ++direction) {
     const Cost* HWY_RESTRICT before = cell.before[direction];
     const auto least = hn::Set(d, before ? cell.least_before[direction] : Cost{0});
-    const auto jump = hn::Add(least, hn::Set(d, cell.large_penalty));
+    const auto jump = hn::Add(least, hn::Set(d, cell.large_penalty[direction]));
     auto running_least = beyond;
     for_each_stored_range(*cell.planes, [&](StoredRange range) HWY_ATTR {
       const int padded = padded_planes(range.planes);
@@ -62,7 +62,7 @@ namespace {
 // Step from a cell to the one before it on each path of the pass from the north; the pass from the south mirrors both.
 constexpr std::array<std::array<int, 2>, kPathsPerPass> kBefore = {{{-1, 0}, {0, -1}, {-1, -1}, {1, -1}}};
 
-void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_south, Penalties penalties,
+void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_south, const Penalties& penalties,
               CostVolume& sums) {
   const int width = costs.width(), height = costs.height();
   PathRows rows(width, costs.all_planes());
@@ -78,8 +78,7 @@ void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_so
       cell.lowest_plane = costs.all_planes().first;
       cell.costs = costs.cell(column, row);
       cell.sums = sums.cell(column, row);
-      cell.small_penalty = penalties.small;
-      cell.large_penalty = penalties.large;
+      cell.small_penalty = penalties.small();
       rows.forget_outside(column, planes);
       for (int path = 0; path < kPathsPerPass; ++path) {
         const int before_column = column + sign * kBefore[path][0], before_row = row + sign * kBefore[path][1];
@@ -89,6 +88,7 @@ void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_so
         cell.before[path] = exists ? rows.values(path, before_column, same_row) -
                                          problem.expected_rise(before_column, before_row, column, row).planes
                                    : nullptr;
+        cell.large_penalty[path] = exists ? penalties.large(before_column, before_row, column, row) : 0;
         cell.least_before[path] = exists ? rows.least(path, before_column, same_row) : Cost{0};
         cell.now[path] = rows.values(path, column, true);
       }
@@ -103,7 +103,7 @@ void add_pass(const SweepProblem& problem, const CostVolume& costs, bool from_so
 
 CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
   CostVolume sums(problem, 0);
-  const Penalties penalties = penalties_of(problem.options);
+  const Penalties penalties(problem);
   add_pass(problem, costs, false, penalties, sums);
   add_pass(problem, costs, true, penalties, sums);
   return sums;

@@ -26,7 +26,7 @@ struct PathCosts {
 
 // `rise`: planes that the surface is expected to rise from the cell before.
 PathCosts continue_path(const CostVolume& costs, int column, int row, const PathCosts* before, int rise,
-                        Penalties penalties) {
+                        int small_penalty, int large_penalty) {
   PathCosts out{&costs.planes_at(column, row), {}};
   const bool begins = !before || before->planes->empty();
   for_each_stored_range(*out.planes, [&](StoredRange range) {
@@ -35,8 +35,8 @@ PathCosts continue_path(const CostVolume& costs, int column, int row, const Path
       int value = *cost++;
       if (!begins) {
         const int same = k - rise;
-        const int step = std::min(before->at(same - 1), before->at(same + 1)) + penalties.small;
-        const int jump = before->least() + penalties.large;
+        const int step = std::min(before->at(same - 1), before->at(same + 1)) + small_penalty;
+        const int jump = before->least() + large_penalty;
         value += std::min({before->at(same), step, jump}) - before->least();
       }
       out.values.push_back(value);
@@ -46,12 +46,13 @@ PathCosts continue_path(const CostVolume& costs, int column, int row, const Path
 }
 
 void add_path(const SweepProblem& problem, const CostVolume& costs, int column, int row, int dx, int dy,
-              Penalties penalties, CostVolume& sums) {
+              const Penalties& penalties, CostVolume& sums) {
   PathCosts before;
   for (bool first = true; column >= 0 && column < costs.width() && row >= 0 && row < costs.height();
        column += dx, row += dy, first = false) {
     const int rise = first ? 0 : problem.expected_rise(column - dx, row - dy, column, row).planes;
-    before = continue_path(costs, column, row, first ? nullptr : &before, rise, penalties);
+    const int large = first ? 0 : penalties.large(column - dx, row - dy, column, row);
+    before = continue_path(costs, column, row, first ? nullptr : &before, rise, penalties.small(), large);
     auto value = before.values.begin();
     for_each_stored_range(*before.planes, [&](StoredRange range) {
       Cost* sum = sums.cell(column, row) + range.slot;
@@ -64,7 +65,7 @@ void add_path(const SweepProblem& problem, const CostVolume& costs, int column, 
 
 CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
   CostVolume sums(problem, 0);
-  const Penalties penalties = penalties_of(problem.options);
+  const Penalties penalties(problem);
   const int right = costs.width() - 1, bottom = costs.height() - 1;
   for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}) {
     // Every cell whose predecessor lies outside the grid starts a path.
