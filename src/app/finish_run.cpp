@@ -8,6 +8,7 @@
 
 #include "app/option_values.h"
 #include "export/mosaic.h"
+#include "pipeline/tbb_executor.h"
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
 #include "raster/geotiff.h"
@@ -50,10 +51,11 @@ bool write_products(const pipeline::RunRequest& request, const pipeline::RunSumm
   if (request.area) extent = intersection(extent, *request.area);
   if (extent.empty()) return false;
   console.begin("mosaics", static_cast<int>(kMosaics.size()) + 1);
-  for (const Mosaic& mosaic : kMosaics) {
-    exports::write_mosaic(store, mosaic.layer, extent, paths.mosaic(mosaic.file));
+  pipeline::TbbExecutor executor(request.threads);
+  executor.parallel_for(static_cast<int>(kMosaics.size()), [&](int i) {
+    exports::write_mosaic(store, kMosaics[i].layer, extent, paths.mosaic(kMosaics[i].file));
     console.advance();
-  }
+  });
   const raster::Raster<float> dsm = raster::read_float_raster(paths.mosaic("dsm"));
   raster::write_image(paths.folder / "preview.png", report::hillshade(thinned(dsm)));
   console.advance();
@@ -83,6 +85,7 @@ nlohmann::json report_of(const pipeline::RunSummary& summary, double seconds) {
             {"kept", summary.tiles_kept},
             {"empty", summary.tiles_empty},
             {"parents_written", summary.parents_written}}},
+          {"cells", {{"measured", summary.cells_measured}, {"filled", summary.cells_filled}}},
           {"samples", summary.samples},
           {"photographs_decoded", summary.photographs_decoded},
           {"seconds", seconds},

@@ -11,15 +11,6 @@ Camera::Camera(const CameraModel& model, const Pose& pose)
   SKY_CHECK(!pose.problem());
 }
 
-std::optional<Vec2d> Camera::project(Vec3d world) const {
-  const Vec3d p = pose_.cam_from_world * (world - pose_.center);
-  if (!(p.z > 0)) return std::nullopt;
-  const Vec2d n{p.x / p.z, p.y / p.z};
-  if (!(dot(n, n) < fold_radius_squared_)) return std::nullopt;
-  const Vec2d d = distort(model_.distortion, n);
-  return Vec2d{model_.fx_px * d.x + model_.cx_px, model_.fy_px * d.y + model_.cy_px};
-}
-
 std::optional<Vec3d> Camera::ray(Vec2d pixel) const {
   const Vec2d distorted{(pixel.x - model_.cx_px) / model_.fx_px, (pixel.y - model_.cy_px) / model_.fy_px};
   const std::optional<Vec2d> n = undistort(model_.distortion, distorted, fold_radius_squared_);

@@ -23,7 +23,14 @@ class Camera {
 
   // Pixel at which the world point appears; nothing for points behind the camera or beyond the fold of the lens model.
   // The pixel may lie outside the photograph: see `shows`.
-  std::optional<Vec2d> project(Vec3d world) const;
+  std::optional<Vec2d> project(Vec3d world) const {
+    const Vec3d p = pose_.cam_from_world * (world - pose_.center);
+    if (!(p.z > 0)) return std::nullopt;
+    const Vec2d n{p.x / p.z, p.y / p.z};
+    if (!(dot(n, n) < fold_radius_squared_)) return std::nullopt;
+    const Vec2d d = distort(model_.distortion, n);
+    return Vec2d{model_.fx_px * d.x + model_.cx_px, model_.fy_px * d.y + model_.cy_px};
+  }
 
   // Whether a pixel position lies on the photograph, [0, width] x [0, height].
   bool shows(Vec2d pixel) const {

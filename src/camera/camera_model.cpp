@@ -36,13 +36,6 @@ CameraModel camera_from_sensor(double focal_mm, double sensor_width_mm, int widt
   return {width_px, height_px, focal_px, focal_px, 0.5 * width_px, 0.5 * height_px, {}};
 }
 
-Vec2d distort(const Distortion& d, Vec2d p) {
-  const double r2 = dot(p, p);
-  const double radial = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
-  return {p.x * radial + 2 * d.p1 * p.x * p.y + d.p2 * (r2 + 2 * p.x * p.x),
-          p.y * radial + d.p1 * (r2 + 2 * p.y * p.y) + 2 * d.p2 * p.x * p.y};
-}
-
 std::optional<Vec2d> undistort(const Distortion& d, Vec2d distorted) {
   return undistort(d, distorted, fold_radius_squared(d));
 }

@@ -38,7 +38,12 @@ struct CameraModel {
 CameraModel camera_from_sensor(double focal_mm, double sensor_width_mm, int width_px, int height_px);
 
 // Normalised coordinates with lens distortion from those without.
-Vec2d distort(const Distortion& d, Vec2d undistorted);
+inline Vec2d distort(const Distortion& d, Vec2d p) {
+  const double r2 = dot(p, p);
+  const double radial = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
+  return {p.x * radial + 2 * d.p1 * p.x * p.y + d.p2 * (r2 + 2 * p.x * p.x),
+          p.y * radial + d.p1 * (r2 + 2 * p.y * p.y) + 2 * d.p2 * p.x * p.y};
+}
 
 // The inverse of `distort` by Newton's method; nothing if it does not converge to a point inside the fold radius.
 std::optional<Vec2d> undistort(const Distortion& d, Vec2d distorted);

@@ -74,15 +74,13 @@ Program::~Program() {
 void Program::set(const char* uniform, int value) {
   const Current current(*device_);
   const GLint location = glGetUniformLocation(id_, uniform);
-  SKY_CHECK_GE(location, 0);
-  glProgramUniform1i(id_, location, value);
+  if (location >= 0) glProgramUniform1i(id_, location, value);
 }
 
 void Program::set(const char* uniform, float value) {
   const Current current(*device_);
   const GLint location = glGetUniformLocation(id_, uniform);
-  SKY_CHECK_GE(location, 0);
-  glProgramUniform1f(id_, location, value);
+  if (location >= 0) glProgramUniform1f(id_, location, value);
 }
 
 void Program::run(std::int64_t groups, const std::vector<const Buffer*>& buffers, const TextureArray* texture,

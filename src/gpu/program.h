@@ -22,7 +22,8 @@ class Program {
   Program(Program&& other) noexcept;
   Program& operator=(Program&&) = delete;
 
-  // Uniforms keep their values from run to run. A name that the shader does not use is a bug.
+  // Uniforms keep their values from run to run. A name that no code of
+  // the shader depends on is passed over: compilers differ in what they leave out.
   void set(const char* uniform, int value);
   void set(const char* uniform, float value);
 

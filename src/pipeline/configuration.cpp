@@ -94,11 +94,13 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("window_level_min", o.window_level_min);
   key("window_level_max", o.window_level_max);
   key("normalization_radius_px", o.normalization_radius_px);
+  key("normalization_tolerance", o.normalization_tolerance);
   key("coarse_levels", o.coarse_levels);
   key("rival_tolerance", o.rival_tolerance);
   key("visibility_passes", o.visibility_passes);
   key("sure_excess", o.sure_excess);
   key("follow_slopes", o.follow_slopes);
+  key("edge_contrast", o.edge_contrast);
   key("hidden_cost", o.hidden_cost);
   key("aggregation", o.aggregation);
   key("consensus_share", o.consensus_share);
@@ -111,6 +113,9 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("few_views_penalty", o.few_views_penalty);
   key("max_cost", o.max_cost);
   key("max_cost_to_mean", o.max_cost_to_mean);
+  key("speckle_cells", o.speckle_cells);
+  key("fill", o.fill);
+  key("close_gap_cells", o.close_gap_cells);
   key("plane_step_px", o.plane_step_px);
   key("planar_fallback", o.planar_fallback);
 }

@@ -29,6 +29,7 @@ std::string number(double value) {
 Configuration requested_configuration(const RunRequest& request) {
   Configuration configuration =
       read_configuration(request.preset.value_or(std::string(settings::kDefaultPreset)), request.config);
+  if (request.no_fill) configuration.sweep.fill = false;
   if (request.planar_fallback) configuration.sweep.planar_fallback = true;
   return configuration;
 }
@@ -61,6 +62,7 @@ void require_no_contradiction(const RunRequest& request, const ProjectSettings& 
   }
   if (request.preset || request.config)
     require_same_configuration(project.configuration, requested_configuration(request), paths);
+  if (request.no_fill && project.configuration.sweep.fill) contradiction(paths, "fill", "true", "--no-fill");
   if (request.planar_fallback && !project.configuration.sweep.planar_fallback)
     contradiction(paths, "planar_fallback", "false", "--planar-fallback");
 }

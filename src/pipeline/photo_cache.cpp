@@ -5,8 +5,8 @@
 
 namespace skysweep::pipeline {
 
-PhotoCache::PhotoCache(std::filesystem::path folder, std::size_t capacity_bytes, int normalization_radius_px)
-    : folder_(std::move(folder)), capacity_bytes_(capacity_bytes), normalization_radius_px_(normalization_radius_px) {}
+PhotoCache::PhotoCache(std::filesystem::path folder, std::size_t capacity_bytes, sweep::Normalization normalization)
+    : folder_(std::move(folder)), capacity_bytes_(capacity_bytes), normalization_(normalization) {}
 
 std::shared_ptr<const sweep::ImagePyramid> PhotoCache::get(const std::string& name) {
   std::unique_lock lock(mutex_);
@@ -23,7 +23,7 @@ std::shared_ptr<const sweep::ImagePyramid> PhotoCache::get(const std::string& na
 
   std::shared_ptr<const sweep::ImagePyramid> image;
   try {
-    image = std::make_shared<sweep::ImagePyramid>(raster::read_photo(folder_ / name), normalization_radius_px_);
+    image = std::make_shared<sweep::ImagePyramid>(raster::read_photo(folder_ / name), normalization_);
   } catch (...) {
     lock.lock();
     by_age_.erase(entries_[name].age);

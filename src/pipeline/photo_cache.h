@@ -20,7 +20,7 @@ class PhotoCache {
  public:
   // `capacity_bytes` bounds what is kept for later; photographs in use count, too, but are never dropped.
   // Photographs are prepared for sweeping with this normalisation (SweepOptions).
-  PhotoCache(std::filesystem::path folder, std::size_t capacity_bytes, int normalization_radius_px);
+  PhotoCache(std::filesystem::path folder, std::size_t capacity_bytes, sweep::Normalization normalization);
 
   // Throws what reading the photograph throws; a later call tries again.
   std::shared_ptr<const sweep::ImagePyramid> get(const std::string& name);
@@ -36,7 +36,7 @@ class PhotoCache {
 
   std::filesystem::path folder_;
   std::size_t capacity_bytes_;
-  int normalization_radius_px_;
+  sweep::Normalization normalization_;
   mutable std::mutex mutex_;
   std::condition_variable decoded_one_;
   std::map<std::string, Entry> entries_;

@@ -70,8 +70,7 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
 
   summary.memory = plan_memory(request.memory_bytes.value_or(default_memory_limit()), photographs.records,
                                choice.configuration, request.threads);
-  PhotoCache photos(request.images, summary.memory.photo_cache_bytes,
-                    choice.configuration.sweep.normalization_radius_px);
+  PhotoCache photos(request.images, summary.memory.photo_cache_bytes, choice.configuration.sweep.normalization());
   summary.settings = choice.existing ? *choice.existing
                                      : new_project_settings(request, choice.configuration, photographs.records, photos,
                                                             executor, progress);

@@ -31,6 +31,7 @@ struct RunRequest {
   std::optional<sweep::Backend> backend;
   std::optional<std::size_t> memory_bytes;
   int threads = 1;
+  bool no_fill = false;          // as [sweep] fill = false
   bool planar_fallback = false;  // as [sweep] planar_fallback = true
   bool fresh = false;            // throw away what the project holds
   bool dry_run = false;          // find out everything, write nothing
@@ -43,7 +44,9 @@ struct RunSummary {
   std::uint64_t disk_bytes_needed = 0;  // at most
   int tiles_planned = 0;
   int tiles_computed = 0;
-  int tiles_kept = 0;   // already there with the same inputs
+  int tiles_kept = 0;  // already there with the same inputs
+  // Cells of the tiles computed: measured, and filled from their surroundings.
+  std::uint64_t cells_measured = 0, cells_filled = 0;
   int tiles_empty = 0;  // looked at, and nothing could be known
   int parents_written = 0;
   double samples = 0;  // luminance samples of the fine sweep

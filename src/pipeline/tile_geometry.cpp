@@ -24,6 +24,7 @@ sweep::SweepProblem TileGeometry::empty_problem() const {
   const int width = options.cells + 2 * options.collar_cells;
   sweep::SweepProblem problem;
   problem.grid = {width, width, cell, {-options.collar_cells * cell, (options.cells + options.collar_cells) * cell}};
+  problem.collar_cells = options.collar_cells;
   problem.dz_m = settings_.lattice.dz_m;
   problem.options = settings_.configuration.sweep;
   problem.search_everywhere({});

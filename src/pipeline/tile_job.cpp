@@ -36,11 +36,13 @@ tiles::Tile tile_from(const sweep::SweepResult& result, const TileOptions& optio
   tile.dem = without_collar(result.height_m, options);
   tile.confidence = without_collar(result.sigma_m, options);
   tile.color = without_collar(result.color, options);
+  const Array2d<std::uint8_t> filled = without_collar(result.filled, options);
   const Array2d<std::uint8_t> planar = without_collar(result.planar, options);
   tile.mask = Array2d<std::uint8_t>(options.cells, options.cells);
   for (std::size_t i = 0; i < tile.mask.size(); ++i) {
-    const bool measured = !std::isnan(tile.dem.data()[i]);
-    const tiles::CellSource source = measured                ? tiles::CellSource::measured
+    const bool has_height = !std::isnan(tile.dem.data()[i]);
+    const tiles::CellSource source = filled.data()[i] != 0   ? tiles::CellSource::filled
+                                     : has_height            ? tiles::CellSource::measured
                                      : planar.data()[i] != 0 ? tiles::CellSource::planar
                                                              : tiles::CellSource::none;
     tile.mask.data()[i] = static_cast<std::uint8_t>(source);
@@ -51,6 +53,10 @@ tiles::Tile tile_from(const sweep::SweepResult& result, const TileOptions& optio
 double share_with_height(const Array2d<float>& dem) {
   const auto known = std::count_if(dem.begin(), dem.end(), [](float z) { return !std::isnan(z); });
   return static_cast<double>(known) / static_cast<double>(dem.size());
+}
+
+std::uint64_t count_of(const Array2d<std::uint8_t>& mask, tiles::CellSource source) {
+  return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), static_cast<std::uint8_t>(source)));
 }
 
 }  // namespace
@@ -89,6 +95,8 @@ TileOutcome compute_tile(tiles::TileKey key, const std::vector<const ImageRecord
   outcome.views = prepared.view_names;
   outcome.heights = prepared.heights;
   outcome.valid_share = share_with_height(outcome.tile.dem);
+  outcome.cells_measured = count_of(outcome.tile.mask, tiles::CellSource::measured);
+  outcome.cells_filled = count_of(outcome.tile.mask, tiles::CellSource::filled);
   outcome.samples = result.samples;
   return outcome;
 }

@@ -47,8 +47,9 @@ struct TileOutcome {
   std::vector<std::string> views;
   std::optional<sweep::HeightRange> heights;  // found by the coarse sweep
   double valid_share = 0;                     // cells with a height
-  double samples = 0;                         // luminance samples of the fine sweep
-  bool empty() const;                         // neither height nor colour anywhere
+  std::uint64_t cells_measured = 0, cells_filled = 0;
+  double samples = 0;  // luminance samples of the fine sweep
+  bool empty() const;  // neither height nor colour anywhere
 };
 
 TileOutcome compute_tile(tiles::TileKey key, const std::vector<const index::ImageRecord*>& candidates,

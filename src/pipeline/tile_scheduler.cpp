@@ -89,6 +89,8 @@ class Pass {
       changed_.push_back(tile.key);
       ++summary_.tiles_computed;
       summary_.tiles_empty += outcome.empty();
+      summary_.cells_measured += outcome.cells_measured;
+      summary_.cells_filled += outcome.cells_filled;
       summary_.samples += outcome.samples;
       unknown_.add(outcome);
     } catch (const PhotographFailed& failed) {

@@ -42,6 +42,7 @@ CPLStringList creation_options(CogKind kind) {
   const char* predictor = type_of(kind) == GDT_Float32 ? "FLOATING_POINT" : kind == CogKind::colors ? "STANDARD" : "NO";
   CPLStringList options;
   options.SetNameValue("COMPRESS", "DEFLATE");
+  options.SetNameValue("LEVEL", "1");  // 1 to 2 % larger than level 6 on a dense town, in two thirds of the time
   options.SetNameValue("PREDICTOR", predictor);
   options.SetNameValue("OVERVIEW_PREDICTOR", predictor);
   options.SetNameValue("OVERVIEW_RESAMPLING", overview_resampling(kind));

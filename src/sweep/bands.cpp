@@ -44,6 +44,7 @@ SweepProblem part_of(const SweepProblem& problem, const Band& band) {
   part.grid.north_west_corner.y -= first_row * problem.grid.cell_m;
   if (!problem.expected_plane.empty())
     part.expected_plane = crop(problem.expected_plane, 0, first_row, problem.grid.width, part.grid.height);
+  if (!problem.guide.empty()) part.guide = crop(problem.guide, 0, first_row, problem.grid.width, part.grid.height);
   part.visibility.first_row += first_row;
   part.block_planes =
       crop(problem.block_planes, 0, band.swept_first, problem.block_planes.width(), band.swept_last - band.swept_first);

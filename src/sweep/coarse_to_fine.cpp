@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "sweep/expected_planes.h"
+#include "sweep/guide_image.h"
 
 namespace skysweep::sweep {
 namespace {
@@ -89,6 +90,13 @@ void look_past(const MatchResult& found, Executor& executor, SweepProblem& coars
   coarse.visibility = {std::make_shared<const Horizons>(coarse.grid, coarse.views, question, executor), 1, 0};
 }
 
+// What smoothing goes by: the slopes and edges of what was found on cells `times` as large.
+void expect(const MatchResult& found, int times, Executor& executor, SweepProblem& problem) {
+  if (problem.options.smoothing == Smoothing::none) return;
+  if (problem.options.follow_slopes) problem.expected_plane = expected_planes(found, times, problem);
+  if (problem.options.edge_contrast > 0) problem.guide = guide_image(problem, found, times, executor);
+}
+
 Array2d<float> spread(const Array2d<float>& coarse, int times, int width, int height) {
   Array2d<float> fine(width, height);
   for (int row = 0; row < height; ++row)
@@ -109,7 +117,7 @@ NarrowedSearch narrow_search(const SweepProblem& problem, Backend backend, Execu
     samples += sample_count(coarse);
     for (int pass = 0; scale == 1 && pass < coarse.options.visibility_passes; ++pass) {
       look_past(found, executor, coarse);
-      if (coarse.options.follow_slopes) coarse.expected_plane = expected_planes(found, 1, coarse);
+      expect(found, 1, executor, coarse);
       found = match_planes(coarse, backend, executor);
       samples += sample_count(coarse);
     }
@@ -118,7 +126,7 @@ NarrowedSearch narrow_search(const SweepProblem& problem, Backend backend, Execu
     keep_planes_near(found, scales[scale - 1]);
     scales[scale - 1].visibility = coarse.visibility;
     scales[scale - 1].visibility.times = 2;
-    if (coarse.options.follow_slopes) scales[scale - 1].expected_plane = expected_planes(found, 2, scales[scale - 1]);
+    expect(found, 2, executor, scales[scale - 1]);
   }
   out.problem = std::move(scales.front());
   return out;

@@ -2,15 +2,17 @@
 #include "sweep/depth_probe.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+
+#include "sweep/plane_warp.h"
+#include "sweep/window_correlation.h"
 
 namespace skysweep::sweep {
 namespace {
 
 constexpr int kLongSidePx = 96;  // of the low-resolution photograph
-constexpr int kRadius = 2;       // of the correlation window
 constexpr int kMaxPlanes = 512;
 constexpr double kStepPx = 0.5;  // parallax from one plane to the next, low-resolution pixels
 constexpr double kNearestBaselines = 0.5, kFarthestBaselines = 60;  // depths searched, in baselines
@@ -23,17 +25,12 @@ constexpr int kAgreement = 3;           // planes by which neighbours may differ
 // False matches scatter over all parallaxes, a surface does not: so much of what is trusted must lie near the median.
 constexpr double kNearMedian = 0.3, kFewestNearMedian = 0.6;
 
-struct LowResolution {
-  int level = 0;
-  int width = 0, height = 0;
-};
-
-LowResolution low_resolution(const ImagePyramid& image) {
+int low_resolution(const ImagePyramid& image) {
   int level = 0;
   while (level + 1 < image.levels() &&
          std::max(image.luminance(level).width, image.luminance(level).height) > kLongSidePx)
     ++level;
-  return {level, image.luminance(level).width, image.luminance(level).height};
+  return level;
 }
 
 double horizontal_distance(Vec3d a, Vec3d b) { return norm(Vec2d{a.x - b.x, a.y - b.y}); }
@@ -58,63 +55,60 @@ std::vector<double> depths_to_search(const View& reference, const std::vector<Vi
   return depths;
 }
 
-// The neighbour's luminance warped onto the reference's pixels by the plane `depth` below its CoP; NaN outside.
-Array2d<float> warp(const View& reference, const View& neighbour, const LowResolution& size, double depth) {
-  Array2d<float> out(size.width, size.height, std::nanf(""));
-  const double z = reference.camera.pose().center.z - depth;
-  const double pixel_size = std::ldexp(1.0, size.level);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const auto point = reference.camera.at_height({(x + 0.5) * pixel_size, (y + 0.5) * pixel_size}, z);
-      if (!point) continue;
-      const auto pixel = neighbour.camera.project(*point);
-      if (pixel && neighbour.camera.shows(*pixel))
-        out(x, y) = static_cast<float>(
-            neighbour.image->sample_luminance(*pixel, std::min(size.level, neighbour.image->levels() - 1)));
-    }
-  }
+Array2d<float> grey_levels(const LuminanceLevel& luminance) {
+  Array2d<float> out(luminance.width, luminance.height);
+  for (int y = 0; y < luminance.height; ++y)
+    for (int x = 0; x < luminance.width; ++x) out(x, y) = static_cast<float>(luminance.at(x, y) / kLuminanceScale);
   return out;
 }
 
-// Correlation of the windows around (x, y); nothing without texture or when the window leaves either image.
-std::optional<double> correlation(const Array2d<float>& a, const Array2d<float>& b, int x, int y) {
-  double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-  constexpr double n = (2 * kRadius + 1) * (2 * kRadius + 1);
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
-    for (int dx = -kRadius; dx <= kRadius; ++dx) {
-      const double va = a(x + dx, y + dy), vb = b(x + dx, y + dy);
-      sa += va, sb += vb, saa += va * va, sbb += vb * vb, sab += va * vb;
-    }
-  }
-  const double variance_a = saa - sa * sa / n, variance_b = sbb - sb * sb / n;
-  if (!(variance_a > n && variance_b > n)) return std::nullopt;  // a standard deviation of one grey level
-  return (sab - sa * sb / n) / std::sqrt(variance_a * variance_b);
-}
+constexpr float kNoScore = -2;
 
-Array2d<float> low_resolution_luminance(const View& view, const LowResolution& size) {
-  Array2d<float> out(size.width, size.height);
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      out(x, y) = static_cast<float>(view.image->luminance(size.level).at(x, y) / kLuminanceScale);
-  return out;
+// Of each plane and pixel the mean correlation over the neighbours that show it.
+std::vector<Array2d<float>> correlations(const View& reference, const std::vector<View>& neighbours, int level,
+                                         const std::vector<double>& depths) {
+  const PixelRays rays(reference, level);
+  std::vector<PlaneWarp> warps;
+  for (const View& neighbour : neighbours) warps.emplace_back(rays, neighbour);
+  WindowCorrelation correlation(grey_levels(reference.image->luminance(level)));
+
+  std::vector<Array2d<float>> scores;
+  Array2d<float> warped(rays.width, rays.height);
+  for (const double depth : depths) {
+    Array2d<float> sum(rays.width, rays.height, 0), count(rays.width, rays.height, 0);
+    for (PlaneWarp& warp : warps) {
+      warp.warp(depth, warped);
+      correlation.add(warped, sum, count);
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum.data()[i] = count.data()[i] > 0 ? sum.data()[i] / count.data()[i] : kNoScore;
+    scores.push_back(std::move(sum));
+  }
+  return scores;
 }
 
 constexpr int kNoPlane = -1000;
 
 // The plane with the best score of each pixel, where it is good and no plane apart from it comes near.
 Array2d<int> distinct_planes(const std::vector<Array2d<float>>& scores) {
-  Array2d<int> planes(scores[0].width(), scores[0].height(), kNoPlane);
-  const int count = static_cast<int>(scores.size());
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    int best = 0;
-    for (int d = 1; d < count; ++d)
-      if (scores[d].data()[i] > scores[best].data()[i]) best = d;
-    const float peak = scores[best].data()[i];
-    bool distinct = peak >= kGoodCorrelation;
-    for (int d = 0; d < count && distinct; ++d)
-      distinct = std::abs(d - best) <= kPeakWidth || scores[d].data()[i] <= peak - kDistinct;
-    if (distinct) planes.data()[i] = best;
+  Array2d<int> planes(scores[0].width(), scores[0].height(), 0);
+  Array2d<float> peaks = scores[0];
+  // Plane after plane, as the scores lie in memory.
+  for (int d = 1; d < static_cast<int>(scores.size()); ++d) {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const bool better = scores[d].data()[i] > peaks.data()[i];
+      peaks.data()[i] = better ? scores[d].data()[i] : peaks.data()[i];
+      planes.data()[i] = better ? d : planes.data()[i];
+    }
   }
+  Array2d<std::uint8_t> distinct(planes.width(), planes.height());
+  for (std::size_t i = 0; i < planes.size(); ++i) distinct.data()[i] = peaks.data()[i] >= kGoodCorrelation;
+  for (int d = 0; d < static_cast<int>(scores.size()); ++d)
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      distinct.data()[i] &=
+          (std::abs(d - planes.data()[i]) <= kPeakWidth) | (scores[d].data()[i] <= peaks.data()[i] - kDistinct);
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (distinct.data()[i] == 0) planes.data()[i] = kNoPlane;
   return planes;
 }
 
@@ -130,31 +124,10 @@ bool confirmed(const Array2d<int>& planes, int x, int y) {
 }  // namespace
 
 std::optional<DepthProbe> probe_depth(const View& reference, const std::vector<View>& neighbours) {
-  const LowResolution size = low_resolution(*reference.image);
-  const std::vector<double> depths = depths_to_search(reference, neighbours, size.level);
+  const int level = low_resolution(*reference.image);
+  const std::vector<double> depths = depths_to_search(reference, neighbours, level);
   if (depths.empty()) return std::nullopt;
-  const Array2d<float> own = low_resolution_luminance(reference, size);
-
-  // score[plane] = mean correlation over the neighbours that show the pixel; -2 = none.
-  std::vector<Array2d<float>> scores(depths.size(), Array2d<float>(size.width, size.height, -2.0f));
-  for (std::size_t d = 0; d < depths.size(); ++d) {
-    Array2d<float> sum(size.width, size.height, 0), count(size.width, size.height, 0);
-    for (const View& neighbour : neighbours) {
-      const Array2d<float> warped = warp(reference, neighbour, size, depths[d]);
-      for (int y = kRadius; y < size.height - kRadius; ++y) {
-        for (int x = kRadius; x < size.width - kRadius; ++x) {
-          const auto value = correlation(own, warped, x, y);
-          if (!value) continue;
-          sum(x, y) += static_cast<float>(*value);
-          count(x, y) += 1;
-        }
-      }
-    }
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      if (count.data()[i] > 0) scores[d].data()[i] = sum.data()[i] / count.data()[i];
-  }
-
-  const Array2d<int> planes = distinct_planes(scores);
+  const Array2d<int> planes = distinct_planes(correlations(reference, neighbours, level, depths));
   std::vector<double> trusted;
   for (int y = 0; y < planes.height(); ++y)
     for (int x = 0; x < planes.width(); ++x)

@@ -13,7 +13,7 @@ constexpr int kRadius = 2;
 constexpr double kSteepestPlanes = 1.5;
 
 bool sure(const MatchResult& found, double sure_excess, int column, int row) {
-  return std::isfinite(found.fraction(column, row)) && found.rival_excess(column, row) >= sure_excess;
+  return std::isfinite(found.fraction(column, row)) && found.rival_excess(column, row) >= 0.5 * sure_excess;
 }
 
 double plane_at(const MatchResult& found, int column, int row) {

@@ -5,10 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "sweep/heights.h"
 #include "sweep/photometric_evidence.h"
+#include "sweep/small_patches.h"
 
 namespace skysweep::sweep {
 namespace {
@@ -63,35 +63,6 @@ SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_hig
   return coarse;
 }
 
-// Heights that belong to a connected patch of at least kSmallestSurfaceCells cells; the others become NaN.
-Array2d<float> without_small_patches(const Array2d<float>& height, double agreement_m) {
-  Array2d<float> out(height.width(), height.height(), std::numeric_limits<float>::quiet_NaN());
-  Array2d<std::uint8_t> visited(height.width(), height.height(), 0);
-  struct Cell {
-    int x, y;
-  };
-  std::vector<Cell> patch;
-  for (int y = 0; y < height.height(); ++y) {
-    for (int x = 0; x < height.width(); ++x) {
-      if (visited(x, y) || std::isnan(height(x, y))) continue;
-      patch.assign(1, {x, y});
-      visited(x, y) = 1;
-      for (std::size_t next = 0; next < patch.size(); ++next) {
-        const Cell at = patch[next];
-        for (const Cell n : {Cell{at.x - 1, at.y}, {at.x + 1, at.y}, {at.x, at.y - 1}, {at.x, at.y + 1}}) {
-          if (!height.contains(n.x, n.y) || visited(n.x, n.y)) continue;
-          if (!(std::abs(height(n.x, n.y) - height(at.x, at.y)) <= agreement_m)) continue;  // NaN never agrees
-          visited(n.x, n.y) = 1;
-          patch.push_back(n);
-        }
-      }
-      if (static_cast<int>(patch.size()) < kSmallestSurfaceCells) continue;
-      for (const Cell c : patch) out(c.x, c.y) = height(c.x, c.y);
-    }
-  }
-  return out;
-}
-
 // Range of the known heights in a window of coarse cells; nothing if there are none.
 std::optional<HeightRange> range_within(const Array2d<float>& height, int x0, int y0, int x1, int y1) {
   std::optional<HeightRange> range;
@@ -127,7 +98,7 @@ Array2d<float> coarse_surface(const SweepProblem& problem, double z_low, double 
   Heights found = heights_from_matches(coarse, matches);
   drop_heights_without_evidence(coarse, matches, executor, found);
   forget_outside(found.height_m, z_low - coarse.dz_m, z_high + coarse.dz_m);
-  return without_small_patches(found.height_m, kConnectedPlanes * coarse.dz_m);
+  return without_small_patches(found.height_m, kConnectedPlanes * coarse.dz_m, kSmallestSurfaceCells);
 }
 
 std::optional<HeightRange> search_near(const Array2d<float>& surface, SweepProblem& problem) {

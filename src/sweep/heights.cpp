@@ -21,7 +21,9 @@ std::optional<Height> height_of_cell(const SweepProblem& problem, const MatchRes
   const SweepOptions& options = problem.options;
   const double cost = m.cost(column, row), bend = m.bend(column, row);
   if (!std::isfinite(cost) || !(bend > kSmallestBend * (1 + cost))) return std::nullopt;
-  if (cost > options.max_cost || cost > options.max_cost_to_mean * m.mean_cost(column, row)) return std::nullopt;
+  if (cost > options.max_cost) return std::nullopt;
+  const bool believe_everything = options.max_cost_to_mean >= 1;
+  if (!believe_everything && cost > options.max_cost_to_mean * m.mean_cost(column, row)) return std::nullopt;
   const double sigma_planes = std::max(kSmallestSigmaPlanes, cost / bend);
   return Height{(m.plane(column, row) + m.fraction(column, row)) * problem.dz_m, sigma_planes * problem.dz_m};
 }

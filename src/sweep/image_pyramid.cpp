@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sweep/local_normalization.h"
+#include "sweep/similar_normalization.h"
 
 namespace skysweep::sweep {
 namespace {
@@ -39,8 +40,11 @@ Array2d<T> halve(const Array2d<T>& fine, Combine combine) {
 
 constexpr unsigned rounded_mean(unsigned a, unsigned b, unsigned c, unsigned d) { return (a + b + c + d + 2) / 4; }
 
-LuminanceLevel prepared(Array2d<std::uint16_t> inner, int normalization_radius_px) {
-  if (normalization_radius_px > 0) normalize_locally(inner, normalization_radius_px);
+LuminanceLevel prepared(Array2d<std::uint16_t> inner, Normalization normalization) {
+  if (normalization.tolerance > 0)
+    normalize_similar(inner, normalization.radius_px, normalization.tolerance * static_cast<int>(kLuminanceScale));
+  else if (normalization.radius_px > 0)
+    normalize_locally(inner, normalization.radius_px);
   LuminanceLevel level{inner.width(), inner.height(), inner.width() + 2, {}};
   // One element more than the last pixel pair needs, so that pairs can be read as one 32-bit word anywhere.
   level.values.resize(static_cast<std::size_t>(level.stride) * (level.height + 2) + 1);
@@ -54,35 +58,22 @@ LuminanceLevel prepared(Array2d<std::uint16_t> inner, int normalization_radius_p
   return level;
 }
 
-// Index of the pixel left of (above) a sampling position, and the weight of its right (lower) neighbour.
-struct Tap {
-  int index;
-  double weight;
-};
-Tap tap_at(double position, int size) {
-  const double shifted = position - 0.5;
-  const double floor = std::floor(shifted);
-  return {std::clamp(static_cast<int>(floor), -1, size - 1), shifted - floor};
-}
-
 std::uint64_t next_id() {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
 }
 
-double mix(double a, double b, double weight) { return a + weight * (b - a); }
-
 }  // namespace
 
-ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px) : id_(next_id()) {
+ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization) : id_(next_id()) {
   SKY_CHECK(!photograph.empty());
   Array2d<std::uint16_t> grey = luminance_of(photograph);
   color_.push_back(std::move(photograph));
-  luminance_.push_back(prepared(grey, normalization_radius_px));
+  luminance_.push_back(prepared(grey, normalization));
   while (grey.width() > 1 || grey.height() > 1) {
     grey = halve(grey,
                  [](auto a, auto b, auto c, auto d) { return static_cast<std::uint16_t>(rounded_mean(a, b, c, d)); });
-    luminance_.push_back(prepared(grey, normalization_radius_px));
+    luminance_.push_back(prepared(grey, normalization));
     color_.push_back(halve(color_.back(), [](Rgb8 a, Rgb8 b, Rgb8 c, Rgb8 d) {
       return Rgb8{static_cast<std::uint8_t>(rounded_mean(a.r, b.r, c.r, d.r)),
                   static_cast<std::uint8_t>(rounded_mean(a.g, b.g, c.g, d.g)),
@@ -97,16 +88,6 @@ std::size_t ImagePyramid::bytes_for(int width_px, int height_px) {
     bytes += sizeof(std::uint16_t) * (w + 2) * (h + 2) + sizeof(Rgb8) * w * h;
     if (w <= 1 && h <= 1) return bytes;
   }
-}
-
-double ImagePyramid::sample_luminance(Vec2d pixel, int level) const {
-  const LuminanceLevel& image = luminance_[level];
-  const double scale = std::ldexp(1.0, -level);
-  const Tap x = tap_at(pixel.x * scale, image.width);
-  const Tap y = tap_at(pixel.y * scale, image.height);
-  const double upper = mix(image.at(x.index, y.index), image.at(x.index + 1, y.index), x.weight);
-  const double lower = mix(image.at(x.index, y.index + 1), image.at(x.index + 1, y.index + 1), x.weight);
-  return mix(upper, lower, y.weight) / kLuminanceScale;
 }
 
 Rgb8 ImagePyramid::sample_color(Vec2d pixel, int level) const {

@@ -5,14 +5,32 @@
 // built.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "core/array2d.h"
 #include "core/color.h"
 #include "core/vec.h"
+#include "sweep/normalization.h"
 
 namespace skysweep::sweep {
+
+constexpr double kLuminanceScale = 256;  // stored units per grey level
+
+// Index of the pixel left of (above) a sampling position, and the weight of its right (lower) neighbour.
+struct Tap {
+  int index;
+  double weight;
+};
+inline Tap tap_at(double position, int size) {
+  const double shifted = position - 0.5;
+  int floor = static_cast<int>(shifted);
+  floor -= shifted < floor;
+  return {std::clamp(floor, -1, size - 1), shifted - floor};
+}
+
+constexpr double mix(double a, double b, double weight) { return a + weight * (b - a); }
 
 // Luminance in units of 1/256 grey level (Y = 0.212671 R + 0.715160 G + 0.072169 B), with a border
 // of one repeated pixel on every side, so that bilinear sampling anywhere on the photograph reads inside the array.
@@ -26,15 +44,20 @@ struct LuminanceLevel {
   std::uint16_t at(int column, int row) const {
     return values[static_cast<std::size_t>(row + 1) * stride + (column + 1)];
   }
-};
 
-constexpr double kLuminanceScale = 256;  // stored units per grey level
+  // Bilinear, grey levels, double precision. `position` in this level's pixels, on the image.
+  double sample(Vec2d position) const {
+    const Tap x = tap_at(position.x, width), y = tap_at(position.y, height);
+    const std::uint16_t* upper = values.data() + static_cast<std::size_t>(y.index + 1) * stride + (x.index + 1);
+    const std::uint16_t* lower = upper + stride;
+    return mix(mix(upper[0], upper[1], x.weight), mix(lower[0], lower[1], x.weight), y.weight) / kLuminanceScale;
+  }
+};
 
 class ImagePyramid {
  public:
-  // `normalization_radius_px`: see SweepOptions; each level is normalised by itself, in its own pixels. 0 keeps the
-  // luminance as photographed.
-  explicit ImagePyramid(Array2d<Rgb8> photograph, int normalization_radius_px = 0);
+  // Each level is normalised by itself, in its own pixels.
+  explicit ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization = {});
 
   // Tells photographs apart for as long as the program runs; a copy, being equal, has the same.
   std::uint64_t id() const { return id_; }
@@ -49,7 +72,9 @@ class ImagePyramid {
   static std::size_t bytes_for(int width_px, int height_px);
 
   // Bilinear samples, in double precision: grey levels 0..255. `pixel` is a position at level 0, on the photograph.
-  double sample_luminance(Vec2d pixel, int level) const;
+  double sample_luminance(Vec2d pixel, int level) const {
+    return luminance_[level].sample(1.0 / (std::int64_t{1} << level) * pixel);
+  }
   Rgb8 sample_color(Vec2d pixel, int level) const;
 
  private:

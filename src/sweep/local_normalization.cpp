@@ -27,14 +27,14 @@ struct ColumnSums {
   std::vector<std::int64_t> sum, square;
 };
 
+}  // namespace
+
 std::uint16_t normalized(double value, double mean, double variance) {
   const double deviation =
       std::sqrt(std::max(0.0, variance) + kNoiseFloor * kNoiseFloor * kLuminanceScale * kLuminanceScale);
   const double grey = std::clamp(kMiddle + kDeviation * (value - mean) / deviation, 0.0, 255.0);
   return static_cast<std::uint16_t>(grey * kLuminanceScale + 0.5);
 }
-
-}  // namespace
 
 void normalize_locally(Array2d<std::uint16_t>& luminance, int radius_px) {
   const Array2d<std::uint16_t> source = luminance;

@@ -1,39 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/orthophoto.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "sweep/hidden_cells.h"
 #include "sweep/view_costs.h"
 #include "sweep/visibility.h"
 
 namespace skysweep::sweep {
 namespace {
 
-// How far the surface must rise above a ray to hide what is behind, in plane steps: more than heights scatter.
-constexpr double kOcclusionTolerancePlanes = 3;
-
 struct Colored {
   int view = -1;
   Vec2d pixel;
 };
 
+// Leaves the views to whose cameras the surface lets the cell look up.
+void drop_hidden(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z,
+                 ViewSamples& samples) {
+  int kept = 0;
+  for (int k = 0; k < samples.count; ++k) {
+    if (!surface.sees(problem.views[samples.view[k]].camera.pose().center, column, row, z)) continue;
+    samples.view[kept] = samples.view[k];
+    samples.pixel[kept] = samples.pixel[k];
+    ++kept;
+  }
+  samples.count = kept;
+}
+
 // Among the views that show the point and are not hidden from it, the one that differs least from the others.
 Colored best_unoccluded(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, Vec3d point,
                         int& shown_by) {
-  std::array<bool, kMaxViews> visible{};
-  for (std::size_t v = 0; v < problem.views.size(); ++v)
-    visible[v] = surface.sees(problem.views[v].camera.pose().center, column, row, point.z);
-  const ViewSamples samples = sample_views(problem, point, &visible);
-  const std::array<double, kMaxViews> costs = view_costs(samples);
+  ViewSamples samples = views_showing(problem, point);
+  drop_hidden(problem, surface, column, row, point.z, samples);
   shown_by = samples.count;
-  Colored best;
-  double best_cost = 0;
-  for (int k = 0; k < samples.count; ++k) {
-    if (best.view >= 0 && costs[k] >= best_cost) continue;
-    best = {samples.view[k], samples.pixel[k]};
-    best_cost = costs[k];
-  }
-  return best;
+  if (samples.count == 0) return {};
+  if (samples.count <= 2) return {samples.view[0], samples.pixel[0]};  // two differ from each other alike
+  sample_windows(problem, samples);
+  const std::array<double, kMaxViews> costs = view_costs(samples);
+  const auto best = std::min_element(costs.begin(), costs.begin() + samples.count) - costs.begin();
+  return {samples.view[best], samples.pixel[best]};
 }
 
 // The view that shows the point nearest its image centre, as a share of the image's size.
@@ -69,8 +76,10 @@ void colorize(const SweepProblem& problem, Executor& executor, SweepResult& resu
   const SurfaceVisibility surface(problem.grid, result.height_m, kOcclusionTolerancePlanes * problem.dz_m);
   const PlaneRange planes = problem.all_planes();
 
-  executor.parallel_for(height, [&](int row) {
-    for (int column = 0; column < width; ++column) {
+  const int collar = problem.collar_cells;
+  executor.parallel_for(height - 2 * collar, [&](int core_row) {
+    const int row = collar + core_row;
+    for (int column = collar; column < width - collar; ++column) {
       const Vec2d cell = problem.grid.cell_center(column, row);
       const float z = result.height_m(column, row);
       Colored from;

@@ -11,7 +11,7 @@ namespace skysweep::sweep {
 
 // Fills color, color_view, planar and view_count of `result` from its heights. Cells without height stay without colour
 // unless options.planar_fallback: then they are coloured as if they lay on the lowest plane searched, from the view
-// that shows them nearest its image centre, and marked planar.
+// that shows them nearest its image centre, and marked planar. The collar stays without.
 void colorize(const SweepProblem& problem, Executor& executor, SweepResult& result);
 
 }  // namespace skysweep::sweep

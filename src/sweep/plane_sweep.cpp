@@ -2,9 +2,11 @@
 #include "sweep/plane_sweep.h"
 
 #include "sweep/coarse_to_fine.h"
+#include "sweep/filling.h"
 #include "sweep/heights.h"
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
+#include "sweep/speckles.h"
 
 namespace skysweep::sweep {
 
@@ -30,6 +32,8 @@ SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& 
   const MatchResult matches = search(problem, backend, executor, result.samples);
   Heights heights = heights_from_matches(problem, matches);
   drop_heights_without_evidence(problem, matches, executor, heights);
+  drop_speckles(problem, heights);
+  result.filled = fill_hidden_cells(problem, executor, heights);
   result.height_m = std::move(heights.height_m);
   result.sigma_m = std::move(heights.sigma_m);
   colorize(problem, executor, result);

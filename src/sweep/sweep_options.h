@@ -98,6 +98,18 @@ struct SweepOptions {
   // distinguishes it: 1 believes everything.
   double max_cost_to_mean = 0.9;
 
+  // Uneven patches of heights smaller than this that stand apart from their surroundings are not believed
+  // (sweep/speckles.h): more removes more false matches, and small things with them. 0: all are believed.
+  int speckle_cells = 32;
+
+  // Cells that fewer than min_views views can see past the surface around them get the height of the lower side of
+  // that surface, marked as such in the mask; false leaves them empty.
+  bool fill = true;
+
+  // With fill: remaining gaps of fewer cells than this are filled, too, although enough views see them and found no
+  // height to believe there. 0: they stay empty.
+  int close_gap_cells = 0;
+
   // Parallax of one plane step as a share of a pixel: how dz is derived when it is not given (0.6 loses nothing after
   // sub-plane fitting; finer costs time).
   double plane_step_px = 0.6;

@@ -36,6 +36,8 @@ std::optional<std::string> SweepOptions::problem() const {
   if (!(few_views_penalty >= 0 && few_views_penalty <= 100)) return "few_views_penalty must lie between 0 and 100";
   if (!(max_cost > 0)) return "max_cost must be positive (grey levels)";
   if (!(max_cost_to_mean > 0 && max_cost_to_mean <= 1)) return "max_cost_to_mean must lie above 0 and not above 1";
+  if (speckle_cells < 0 || speckle_cells > 65536) return "speckle_cells must lie between 0 (off) and 65536";
+  if (close_gap_cells < 0 || close_gap_cells > 65536) return "close_gap_cells must lie between 0 (off) and 65536";
   if (!(plane_step_px > 0.01 && plane_step_px <= 4)) return "plane_step_px must lie between 0.01 and 4";
   return std::nullopt;
 }

@@ -51,33 +51,52 @@ double ViewSamples::difference(int i, int k) const {
   return sum / levels;
 }
 
-ViewSamples sample_views(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use) {
+ViewSamples views_showing(const SweepProblem& problem, Vec3d point) {
   ViewSamples out;
-  const SweepOptions& options = problem.options;
-  out.levels = options.window_level_max - options.window_level_min + 1;
   for (int v = 0; v < static_cast<int>(problem.views.size()); ++v) {
-    if (use && !(*use)[v]) continue;
-    const View& view = problem.views[v];
-    const std::optional<Vec2d> pixel = view.camera.project(point);
-    if (!pixel || !view.camera.shows(*pixel)) continue;
+    const camera::Camera& camera = problem.views[v].camera;
+    const std::optional<Vec2d> pixel = camera.project(point);
+    if (!pixel || !camera.shows(*pixel)) continue;
     out.view[out.count] = v;
     out.pixel[out.count] = *pixel;
-    for (int level = 0; level < out.levels; ++level)
-      out.luminance[level][out.count] =
-          view.image->sample_luminance(*pixel, sampling_level(view, options.window_level_min + level));
     ++out.count;
   }
   return out;
 }
 
+void sample_windows(const SweepProblem& problem, ViewSamples& samples) {
+  const SweepOptions& options = problem.options;
+  samples.levels = options.window_level_max - options.window_level_min + 1;
+  for (int k = 0; k < samples.count; ++k) {
+    const View& view = problem.views[samples.view[k]];
+    for (int level = 0; level < samples.levels; ++level)
+      samples.luminance[level][k] =
+          view.image->sample_luminance(samples.pixel[k], sampling_level(view, options.window_level_min + level));
+  }
+}
+
+ViewSamples sample_views(const SweepProblem& problem, Vec3d point) {
+  ViewSamples samples = views_showing(problem, point);
+  sample_windows(problem, samples);
+  return samples;
+}
+
 std::array<double, kMaxViews> view_costs(const ViewSamples& samples) {
-  Costs costs{};
+  Costs costs{}, differences;
   for (int i = 0; i < samples.count; ++i) {
-    for (int k = i + 1; k < samples.count; ++k) {
-      const double difference = samples.difference(i, k);
-      costs[i] += difference;
-      costs[k] += difference;
+    // As ViewSamples::difference, level after level for all other views at once.
+    for (int k = i + 1; k < samples.count; ++k) differences[k] = 0;
+    for (int level = 0; level < samples.levels; ++level) {
+      const Costs& luminance = samples.luminance[level];
+      for (int k = i + 1; k < samples.count; ++k) differences[k] += std::abs(luminance[i] - luminance[k]);
     }
+    double own = costs[i];
+    for (int k = i + 1; k < samples.count; ++k) {
+      differences[k] /= samples.levels;
+      costs[k] += differences[k];
+    }
+    for (int k = i + 1; k < samples.count; ++k) own += differences[k];
+    costs[i] = own;
   }
   for (int k = 0; k < samples.count && samples.count > 1; ++k) costs[k] /= samples.count - 1;
   return costs;

@@ -23,8 +23,12 @@ struct ViewSamples {
   double difference(int i, int k) const;
 };
 
-// `use` says which views may take part; null means all.
-ViewSamples sample_views(const SweepProblem& problem, Vec3d point, const std::array<bool, kMaxViews>* use);
+// The views that show the point and where: no luminance yet.
+ViewSamples views_showing(const SweepProblem& problem, Vec3d point);
+// Their luminance.
+void sample_windows(const SweepProblem& problem, ViewSamples& samples);
+// Both.
+ViewSamples sample_views(const SweepProblem& problem, Vec3d point);
 
 // C_k = 1 / (n - 1) sum over the other views of their difference to view k (divided by the number of terms so that
 // costs of different n compare). Zero with fewer than two views.

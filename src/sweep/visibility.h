@@ -22,7 +22,9 @@ class SurfaceVisibility {
   Grid grid_;
   const Array2d<float>& height_m_;
   double tolerance_m_;
-  Array2d<float> block_max_;  // highest cell of each block of kBlock x kBlock cells: lets the ray jump
+  // Highest cell of each square block of 2^kCoarse (2^kFine) cells: lets the ray jump.
+  static constexpr int kCoarse = 4, kFine = 2;
+  Array2d<float> coarse_max_, fine_max_;
   float highest_;
 };
 

@@ -28,6 +28,11 @@ TEST_F(BadInput, value_of_a_configuration_that_makes_no_sense) {
   expect_refused(run(), 2, {"small_tiles.toml", "cells must be a multiple of 64"});
 }
 
+TEST_F(BadInput, fewer_speckle_cells_than_none) {
+  put_bytes(folder / "speckles.toml", "[sweep]\nspeckle_cells = -1\n");
+  expect_refused(run({"--config", folder / "speckles.toml"}), 2, {"speckles.toml", "speckle_cells must lie between 0"});
+}
+
 TEST_F(BadInput, cell_of_no_size) { expect_refused(run({"--cell=0"}), 2, {"--cell must be a positive number"}); }
 
 TEST_F(BadInput, options_without_sense_are_usage_errors) {

@@ -60,6 +60,7 @@ TEST_F(ProjectFolder, contradicting_settings_are_refused_with_the_difference) {
   expect_refused({"--crs", "EPSG:32632"}, {"the CRS", "32N"});
   expect_refused({"--backend", "reference"}, {"--backend cpu", "reference"});
   expect_refused({"--z-range=-3,5"}, {"--z-range -2,5", "-3,5"});
+  expect_refused({"--no-fill"}, {"fill = true", "fill = false"});
   expect_refused({"--planar-fallback"}, {"planar_fallback"});
   put_bytes(folder / "small_tiles.toml", "[tiles]\ncells = 128\ncollar_cells = 16\n");
   expect_refused({}, {"[tiles]", "cells = 64", "cells = 128"});
@@ -131,6 +132,38 @@ TEST_F(ProjectFolder, planar_fallback_marks_its_cells) {
   EXPECT_EQ(run({"--planar-fallback"}, "with").exit_code, 0);
   EXPECT_EQ(cells_marked_3("without"), 0);
   EXPECT_GT(cells_marked_3("with"), 0);
+}
+
+TEST_F(ProjectFolder, no_fill_leaves_the_cells_empty_that_else_are_filled) {
+  EXPECT_EQ(run({}, "with").exit_code, 0);
+  EXPECT_EQ(run({"--no-fill"}, "without").exit_code, 0);
+  put_bytes(folder / "no_fill.toml", "[tiles]\ncells = 64\ncollar_cells = 16\n[sweep]\nfill = false\n");
+  EXPECT_EQ(run({"--config", folder / "no_fill.toml"}, "configured").exit_code, 0);
+  const auto layer = [&](const std::string& name, const char* file) {
+    return raster::read_float_raster(project(name) / file).values;
+  };
+  const Array2d<std::uint8_t> mask = raster::read_class_raster(project("with") / "mask.tif").values;
+  const Array2d<std::uint8_t> empty = raster::read_class_raster(project("without") / "mask.tif").values;
+  ASSERT_EQ(mask.size(), empty.size());
+  const Array2d<float> filled_dsm = layer("with", "dsm.tif"), sigma = layer("with", "confidence.tif");
+  const Array2d<float> dsm = layer("without", "dsm.tif");
+  int filled = 0, different = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const bool is_filled = mask.data()[i] == 2;
+    filled += is_filled;
+    different += empty.data()[i] != (is_filled ? 0 : mask.data()[i]);
+    different += std::isnan(filled_dsm.data()[i]) != (mask.data()[i] == 0);
+    different += std::isnan(sigma.data()[i]) != (mask.data()[i] != 1);
+    different += !is_filled && !std::isnan(dsm.data()[i]) && dsm.data()[i] != filled_dsm.data()[i];
+    different += is_filled && !std::isnan(dsm.data()[i]);
+  }
+  EXPECT_GT(filled, 0);
+  EXPECT_EQ(different, 0);
+  EXPECT_TRUE(file_bytes(project("without") / "dsm.tif") == file_bytes(project("configured") / "dsm.tif"));
+  const nlohmann::json cells = report_of(project("with")).at("cells");
+  EXPECT_EQ(report_of(project("without")).at("cells").at("filled"), 0);
+  EXPECT_EQ(cells.at("filled"), filled);
+  EXPECT_EQ(cells.at("measured"), std::count(mask.begin(), mask.end(), 1));
 }
 
 TEST_F(ProjectFolder, every_line_of_the_json_log_is_json) {

@@ -308,10 +308,12 @@ TEST(MatchingContract, smoothing_is_exact) {
               random.below(9) == 0 ? kWorstCost : static_cast<Cost>(random.below(kWorstCost));
       });
   for (const double large : {0.0, 8.0, 60.0}) {
-    // The last time along slopes, some of them too steep to be followed.
+    // The last time along slopes, some of them too steep to be followed, and with cheaper steps at edges.
     if (large == 60) {
       problem.expected_plane = Array2d<float>(problem.grid.width, problem.grid.height);
       for (float& plane : problem.expected_plane) plane = 0.5f * static_cast<float>(random.below(20));
+      problem.guide = Array2d<std::uint8_t>(problem.grid.width, problem.grid.height);
+      for (std::uint8_t& grey : problem.guide) grey = static_cast<std::uint8_t>(random.below(100));
     }
     problem.options.small_step_penalty = large / 8;
     problem.options.large_step_penalty = large;

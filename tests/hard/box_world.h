@@ -104,7 +104,7 @@ struct WorldProblem {
     add_image(model, pose, photograph(world, camera::Camera(model, pose), shade));
   }
   void add_image(const camera::CameraModel& model, const camera::Pose& pose, Array2d<Rgb8> image) {
-    synthetic.images.emplace_back(std::move(image), problem.options.normalization_radius_px);
+    synthetic.images.emplace_back(std::move(image), problem.options.normalization());
     problem.views.push_back({&synthetic.images.back(), camera::Camera(model, pose), 0});
   }
 

@@ -21,7 +21,7 @@ bool same_bits(const Array2d<T>& a, const Array2d<T>& b) {
          std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-// No infinity, no NaN beside a value, no colour without a view, heights within the planes searched.
+// No infinity, no NaN beside a value unless it is filled, no colour without a view, heights within the planes searched.
 inline void expect_sound(const sweep::SweepProblem& problem, const sweep::SweepResult& r) {
   int unsound = 0;
   for (int y = 0; y < problem.grid.height; ++y) {
@@ -30,8 +30,9 @@ inline void expect_sound(const sweep::SweepProblem& problem, const sweep::SweepR
       const bool nothing = std::isnan(z) && std::isnan(sigma);
       const sweep::PlaneRange planes = problem.planes_at(x, y).hull();
       // One plane of freedom: single precision rounds heights of several kilometres.
-      const bool something = std::isfinite(z) && std::isfinite(sigma) && sigma > 0 &&
-                             z >= (planes.first - 1) * problem.dz_m && z <= (planes.last + 1) * problem.dz_m;
+      const bool sigma_fits = r.filled(x, y) != 0 ? std::isnan(sigma) : std::isfinite(sigma) && sigma > 0;
+      const bool something = std::isfinite(z) && sigma_fits && z >= (planes.first - 1) * problem.dz_m &&
+                             z <= (planes.last + 1) * problem.dz_m;
       const bool color = r.color(x, y).a == 0 ? r.color_view(x, y) == -1
                                               : r.color(x, y).a == 255 && r.color_view(x, y) >= 0 &&
                                                     r.color_view(x, y) < static_cast<int>(problem.views.size());

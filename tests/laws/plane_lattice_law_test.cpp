@@ -21,8 +21,7 @@ TEST_F(PlaneLatticeLaw, a_wider_height_range_moves_no_height_that_wins_in_both) 
   const pipeline::RunSummary summary = run(r);
   const double dz = summary.settings.lattice.dz_m;
   const pipeline::Coverage coverage(summary.images, summary.settings);
-  pipeline::PhotoCache photos(r.images, std::size_t{1} << 28,
-                              summary.settings.configuration.sweep.normalization_radius_px);
+  pipeline::PhotoCache photos(r.images, std::size_t{1} << 28, summary.settings.configuration.sweep.normalization());
   SerialExecutor executor;
 
   long long in_both = 0, same = 0, moved = 0;

@@ -44,7 +44,7 @@ TEST(PlaneSweep, finds_rolling_ground_to_a_fraction_of_the_ground_sampling_dista
   for (std::size_t i = 0; i < result.height_m.size(); ++i) {
     known += !std::isnan(result.height_m.data()[i]);
     colored += result.color.data()[i].a == 255;
-    EXPECT_EQ(std::isnan(result.height_m.data()[i]), std::isnan(result.sigma_m.data()[i]));
+    EXPECT_EQ(std::isnan(result.height_m.data()[i]) || result.filled.data()[i], std::isnan(result.sigma_m.data()[i]));
   }
   EXPECT_GT(known, result.height_m.size() * 98 / 100);
   EXPECT_GT(colored, known * 98 / 100);
@@ -87,6 +87,22 @@ TEST(PlaneSweep, knows_nothing_where_fewer_than_two_photographs_look) {
   const SweepResult result = plane_sweep(p.problem, Backend::cpu, serial);
   for (const float z : result.height_m) EXPECT_TRUE(std::isnan(z));
   for (const Rgba8 c : result.color) EXPECT_EQ(c.a, 0);
+}
+
+TEST(PlaneSweep, colours_the_core_as_it_would_without_a_collar_and_the_collar_not_at_all) {
+  test::SyntheticProblem p = rolling_ground(5);
+  SerialExecutor serial;
+  const SweepResult whole = plane_sweep(p.problem, Backend::cpu, serial);
+  p.problem.collar_cells = 16;
+  const SweepResult core = plane_sweep(p.problem, Backend::cpu, serial);
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      const bool in_core = std::min(x, y) >= 16 && std::max(x, y) < 96 - 16;
+      EXPECT_EQ(core.color(x, y), in_core ? whole.color(x, y) : Rgba8{}) << x << ", " << y;
+      EXPECT_EQ(core.view_count(x, y), in_core ? whole.view_count(x, y) : 0) << x << ", " << y;
+      EXPECT_EQ(std::isnan(core.height_m(x, y)), std::isnan(whole.height_m(x, y)));
+    }
+  }
 }
 
 TEST(PlaneSweep, planar_fallback_colours_cells_without_height_only_when_asked) {

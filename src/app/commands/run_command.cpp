@@ -20,7 +20,7 @@ struct RunOptions {
   std::optional<std::string> crs, origin, area, heights, preset, config, backend, memory;
   std::optional<double> cell, dz;
   int threads = 0;
-  bool planar_fallback = false, fresh = false, strict = false, dry_run = false, json_log = false;
+  bool no_fill = false, planar_fallback = false, fresh = false, strict = false, dry_run = false, json_log = false;
 };
 
 pipeline::RunRequest request_from(const RunOptions& options) {
@@ -41,6 +41,7 @@ pipeline::RunRequest request_from(const RunOptions& options) {
   if (options.threads < 0) throw usage_error("--threads must be a positive number.");
   request.threads =
       options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  request.no_fill = options.no_fill;
   request.planar_fallback = options.planar_fallback;
   request.fresh = options.fresh;
   request.dry_run = options.dry_run;
@@ -106,6 +107,9 @@ void add_run_command(CLI::App& program, ChosenCommand& chosen) {
                       "auto (default: gpu if the machine has a real one, else cpu), cpu, gpu or reference");
   command->add_option("--memory", o->memory, "Most memory to use, e.g. 4GiB (default: half of the machine's)");
   command->add_option("--threads", o->threads, "Number of threads (default: all)");
+  command->add_flag(
+      "--no-fill", o->no_fill,
+      "Leave cells empty that the surface hides from the photographs (default: filled from the lower side)");
   command->add_flag("--planar-fallback", o->planar_fallback,
                     "Colour cells without height from a horizontal plane, marked as such in the mask");
   command->add_flag("--fresh", o->fresh, "Start over: throw away what the project folder holds");

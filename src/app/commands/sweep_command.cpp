@@ -13,9 +13,11 @@
 #include "pipeline/tile_job.h"
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
+#include "sweep/filling.h"
 #include "sweep/heights.h"
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
+#include "sweep/speckles.h"
 
 namespace skysweep::app {
 namespace {
@@ -78,16 +80,19 @@ int dump_tile(const SweepOptions& options) {
   const std::vector<index::ImageRecord> images = index::Catalogue(paths.catalogue(), settings.crs_wkt).images();
   const pipeline::Coverage coverage(images, settings);
   pipeline::PhotoCache photos(options.images ? std::filesystem::path(*options.images) : settings.images,
-                              kPhotoCacheBytes, settings.configuration.sweep.normalization_radius_px);
+                              kPhotoCacheBytes, settings.configuration.sweep.normalization());
   pipeline::TbbExecutor executor(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
 
-  const pipeline::PreparedTile tile =
-      pipeline::prepare_tile(*key, coverage.candidates(*key), settings, photos, executor);
+  pipeline::PreparedTile tile = pipeline::prepare_tile(*key, coverage.candidates(*key), settings, photos, executor);
+  tile.problem.collar_cells = 0;  // here the collar's colours are wanted, too
   const sweep::SweepProblem& problem = tile.problem;
   const sweep::MatchResult matches = sweep::match_planes(problem, settings.backend, executor);
   sweep::Heights heights = sweep::heights_from_matches(problem, matches);
   sweep::drop_heights_without_evidence(problem, matches, executor, heights);
+  const Array2d<float> matched_height_m = heights.height_m;
+  sweep::drop_speckles(problem, heights);
   sweep::SweepResult result;
+  result.filled = sweep::fill_hidden_cells(problem, executor, heights);
   result.height_m = heights.height_m;
   sweep::colorize(problem, executor, result);
 
@@ -110,6 +115,8 @@ int dump_tile(const SweepOptions& options) {
   out.write("mean_cost", matches.mean_cost, "mean matching cost over all planes", "grey level");
   out.write("fraction", matches.fraction, "vertex of the cost parabola above the best plane", "dz");
   out.write("bend", matches.bend, "second difference of the cost at the best plane", "grey level");
+  out.write("matched_height", matched_height_m, "surface height before speckles are taken back", "metre", true);
+  out.write("filled", result.filled, "1 where the height is that of the surroundings", "");
   out.write("height", heights.height_m, "surface height", "metre", true);
   out.write("sigma", heights.sigma_m, "standard deviation of the height", "metre");
   out.write("color", result.color, "orthophoto", "");

@@ -26,7 +26,8 @@ struct CellUpdate {
   std::array<Cost*, kPathsPerPass> now{};
   std::array<Cost, kPathsPerPass> least_before{};
   mutable std::array<Cost, kPathsPerPass> least_now{};
-  Cost small_penalty = 0, large_penalty = 0;
+  Cost small_penalty = 0;
+  std::array<Cost, kPathsPerPass> large_penalty{};
 };
 
 // Path costs addressed by absolute plane, so that neighbours with different ranges meet at the right planes;

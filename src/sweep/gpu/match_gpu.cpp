@@ -184,18 +184,24 @@ struct Volume {
   Buffer blocks, slot_planes, ranges;
 };
 
-// smooth.comp, refine.comp: Expected.
-std::vector<std::array<std::int32_t, 2>> expected_of(const SweepProblem& problem) {
-  std::vector<std::array<std::int32_t, 2>> expected;
-  for (const float plane : problem.expected_plane)
-    expected.push_back({std::isnan(plane) ? kNoPlane : static_cast<std::int32_t>(std::lround(plane)),
-                        std::bit_cast<std::int32_t>(plane)});
-  return expected;
+bool has_priors(const SweepProblem& problem) { return !problem.expected_plane.empty() || !problem.guide.empty(); }
+
+// smooth.comp, refine.comp: Priors.
+std::vector<std::array<std::int32_t, 4>> priors_of(const SweepProblem& problem) {
+  std::vector<std::array<std::int32_t, 4>> priors;
+  if (!has_priors(problem)) return priors;
+  priors.assign(static_cast<std::size_t>(problem.grid.width) * problem.grid.height, {kNoPlane, 0, 0, 0});
+  for (std::size_t i = 0; i < problem.expected_plane.size(); ++i) {
+    const float plane = problem.expected_plane.data()[i];
+    if (std::isnan(plane)) continue;
+    priors[i][0] = static_cast<std::int32_t>(std::lround(plane));
+    priors[i][1] = std::bit_cast<std::int32_t>(plane);
+  }
+  for (std::size_t i = 0; i < problem.guide.size(); ++i) priors[i][2] = problem.guide.data()[i];
+  return priors;
 }
 
-Definitions expectation(const SweepProblem& problem) {
-  return {{"EXPECTED", problem.expected_plane.empty() ? "0" : "1"}};
-}
+Definitions prior_definitions(const SweepProblem& problem) { return {{"PRIORS", has_priors(problem) ? "1" : "0"}}; }
 
 // What costs.glsl reads of the problem, beside the photographs.
 struct Inputs {
@@ -239,21 +245,22 @@ bool fits_shared_memory(Engine& engine, const SweepProblem& problem) {
 }
 
 Buffer& compute_sums(Engine& engine, const SweepProblem& problem, const Volume& volume, const Buffer& costs,
-                     const Buffer& expected) {
+                     const Buffer& priors) {
   Buffer& sums = engine.scratch(Scratch::sums, volume.bytes());
   sums.fill(0);
-  Definitions definitions = expectation(problem);
+  Definitions definitions = prior_definitions(problem);
   definitions.emplace_back("PLANES", std::to_string(planes_in_shared_memory(problem)));
   definitions.emplace_back("THREADS", "64");
   Program& program = engine.program({"smooth.comp"}, definitions);
   set_grid(problem, program);
-  const Penalties penalties = penalties_of(problem.options);
+  const Penalties penalties(problem);
   program.set("lowest_plane", problem.all_planes().first);
-  program.set("small_penalty", penalties.small);
-  program.set("large_penalty", penalties.large);
+  program.set("small_penalty", penalties.small());
+  program.set("large_penalty", penalties.large());
+  if (has_priors(problem)) program.set("edge_contrast", penalties.contrast());
   const std::int64_t width = problem.grid.width, height = problem.grid.height;
   program.run(2 * height + 2 * width + 4 * (width + height - 1),
-              {&volume.blocks, &volume.slot_planes, &costs, &sums, &expected});
+              {&volume.blocks, &volume.slot_planes, &costs, &sums, &priors});
   return sums;
 }
 
@@ -295,16 +302,16 @@ MatchResult match_part(Engine& engine, const SweepProblem& problem) {
   if (!fits_shared_memory(engine, problem))
     throw DeviceError(Trouble::out_of_memory, "The planes of a path do not fit into the GPU's shared memory.");
   const Buffer& costs = compute_costs(engine, problem, volume);
-  const Buffer expected(engine.device(), expected_of(problem));
-  const Buffer& sums = compute_sums(engine, problem, volume, costs, expected);
+  const Buffer priors(engine.device(), priors_of(problem));
+  const Buffer& sums = compute_sums(engine, problem, volume, costs, priors);
   const std::size_t cells = static_cast<std::size_t>(problem.grid.width) * problem.grid.height;
   Buffer& matches = engine.scratch(Scratch::matches, cells * kMatchIntegers * sizeof(std::int32_t));
   run_by_blocks(problem, engine.program({"best_planes.comp"}, {}),
                 {&volume.blocks, &volume.slot_planes, &costs, &sums, &matches});
   if (problem.options.refinement_radius_cells > 0) {
-    Program& refine = engine.program({"refine.comp"}, expectation(problem));
+    Program& refine = engine.program({"refine.comp"}, prior_definitions(problem));
     refine.set("radius", problem.options.refinement_radius_cells);
-    run_by_blocks(problem, refine, {&volume.blocks, &volume.ranges, &costs, &matches, &expected});
+    run_by_blocks(problem, refine, {&volume.blocks, &volume.ranges, &costs, &matches, &priors});
   }
   return matches_from(problem, matches);
 }
@@ -366,8 +373,8 @@ CostVolume smooth(const SweepProblem& problem, const CostVolume& costs) {
     const Volume volume(engine, problem);
     Buffer& given = engine.scratch(Scratch::costs, costs.bytes());
     given.write(costs.cell(0, 0), costs.bytes());
-    const Buffer expected(engine.device(), expected_of(problem));
-    compute_sums(engine, problem, volume, given, expected).read(sums.cell(0, 0), sums.bytes());
+    const Buffer priors(engine.device(), priors_of(problem));
+    compute_sums(engine, problem, volume, given, priors).read(sums.cell(0, 0), sums.bytes());
     return true;
   });
   return done ? sums : cpu::smooth(problem, costs);  // the same bits

@@ -10,18 +10,28 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Only the views from which height z of the cell is not hidden stay.
+void keep_unhidden(const SweepProblem& problem, int column, int row, float z, ViewSamples& samples) {
+  int kept = 0;
+  for (int i = 0; i < samples.count; ++i) {
+    if (z < problem.visibility.lowest_visible(samples.view[i], column, row)) continue;
+    samples.view[kept] = samples.view[i];
+    samples.pixel[kept++] = samples.pixel[i];
+  }
+  samples.count = kept;
+}
+
 // Matching cost of a cell at plane k; infinity outside the planes searched there.
 double cost_at(const SweepProblem& problem, int column, int row, int k) {
   if (!problem.planes_at(column, row).contains(k)) return kInfinity;
   const Vec2d cell = problem.grid.cell_center(column, row);
   const Vec3d point{cell.x, cell.y, k * problem.dz_m};
-  if (!problem.visibility.any()) return matching_cost(sample_views(problem, point, nullptr), problem.options);
-  std::array<bool, kMaxViews> sees{};
-  for (std::size_t v = 0; v < problem.views.size(); ++v)
-    sees[v] = static_cast<float>(point.z) >= problem.visibility.lowest_visible(static_cast<int>(v), column, row);
-  const double cost = matching_cost(sample_views(problem, point, &sees), problem.options);
-  const bool shown = sample_views(problem, point, nullptr).count >= problem.options.min_views;
-  return cost == kInfinity && shown ? problem.options.hidden_cost : cost;
+  ViewSamples samples = views_showing(problem, point);
+  const bool shown = samples.count >= problem.options.min_views;
+  if (problem.visibility.any()) keep_unhidden(problem, column, row, static_cast<float>(point.z), samples);
+  sample_windows(problem, samples);
+  const double cost = matching_cost(samples, problem.options);
+  return cost == kInfinity && shown && problem.visibility.any() ? problem.options.hidden_cost : cost;
 }
 
 void match_cell(const SweepProblem& problem, int column, int row, MatchResult& result) {

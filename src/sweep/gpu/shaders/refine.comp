@@ -7,9 +7,9 @@ layout(std430, binding = 0) readonly buffer Blocks { int blocks[]; };
 layout(std430, binding = 1) readonly buffer Ranges { int ranges[]; };
 layout(std430, binding = 2) readonly buffer Volume { int costs[]; };
 layout(std430, binding = 3) buffer Matches { int matches[]; };
-#if EXPECTED
-// Of each cell the plane expected there as a whole number, or NO_PLANE, and not rounded.
-layout(std430, binding = 4) readonly buffer Expected { ivec2 expected[]; };
+#if PRIORS
+// Of each cell the plane expected there as a whole number, or NO_PLANE, and not rounded; the guide image; nothing.
+layout(std430, binding = 4) readonly buffer Priors { ivec4 priors[]; };
 #endif
 uniform int width, height, blocks_across, radius;
 
@@ -25,8 +25,8 @@ struct Triple {
 // SweepProblem::expected_rise: whole planes, and what they leave out.
 int expected_rise(ivec2 from, ivec2 to, out float error) {
   error = 0;
-#if EXPECTED
-  ivec2 before = expected[from.y * width + from.x], after = expected[to.y * width + to.x];
+#if PRIORS
+  ivec4 before = priors[from.y * width + from.x], after = priors[to.y * width + to.x];
   int rise = after.x - before.x;
   if (before.x == NO_PLANE || after.x == NO_PLANE || abs(rise) > STEEPEST_RISE * radius) return 0;
   error = intBitsToFloat(after.y) - intBitsToFloat(before.y) - float(rise);

@@ -10,9 +10,9 @@ layout(std430, binding = 0) readonly buffer Blocks { int blocks[]; };
 layout(std430, binding = 1) readonly buffer SlotPlanes { int slot_planes[]; };
 layout(std430, binding = 2) readonly buffer Volume { int costs[]; };
 layout(std430, binding = 3) buffer Sums { int sums[]; };
-#if EXPECTED
-// Of each cell the plane expected there as a whole number, or NO_PLANE, and not rounded.
-layout(std430, binding = 4) readonly buffer Expected { ivec2 expected[]; };
+#if PRIORS
+// Of each cell the plane expected there as a whole number, or NO_PLANE, and not rounded; the guide image; nothing.
+layout(std430, binding = 4) readonly buffer Priors { ivec4 priors[]; };
 #endif
 uniform int width, height, blocks_across, lowest_plane, small_penalty, large_penalty;
 
@@ -25,12 +25,27 @@ shared int least[3];
 
 // SweepProblem::expected_rise from the cell before.
 int expected_rise(ivec2 before, ivec2 cell) {
-#if EXPECTED
-  int from = expected[before.y * width + before.x].x, to = expected[cell.y * width + cell.x].x;
+#if PRIORS
+  int from = priors[before.y * width + before.x].x, to = priors[cell.y * width + cell.x].x;
   if (from == NO_PLANE || to == NO_PLANE || abs(to - from) > STEEPEST_RISE) return 0;
   return to - from;
 #else
   return 0;
+#endif
+}
+
+// Penalties::large.
+#if PRIORS
+uniform int edge_contrast;
+#endif
+int large_penalty_between(ivec2 before, ivec2 cell) {
+#if PRIORS
+  int from = priors[before.y * width + before.x].z, to = priors[cell.y * width + cell.x].z;
+  int difference = min(abs(to - from), 4 * edge_contrast);
+  if (from == 0 || to == 0 || difference <= edge_contrast) return large_penalty;
+  return max(small_penalty, large_penalty / difference * edge_contrast);
+#else
+  return large_penalty;
 #endif
 }
 
@@ -85,6 +100,7 @@ void main() {
     int least_before = begun ? least[(step + 2) % 3] : 0;
     int least_here = BEYOND_RANGE;
     int rise = begun ? expected_rise(cell - by, cell) : 0;
+    int large = begun ? large_penalty_between(cell - by, cell) : 0;
     for (int slot = thread; slot < slots; slot += THREADS) {
       int plane = slot_planes[blocks[at + 3] + slot];
       if (plane == NO_PLANE) {
@@ -96,7 +112,7 @@ void main() {
       if (begun) {
         int same = k - rise;
         int neighbour = min(path[before][same - 1], path[before][same + 1]) + small_penalty;
-        value += min(min(path[before][same], neighbour), least_before + large_penalty) - least_before;
+        value += min(min(path[before][same], neighbour), least_before + large) - least_before;
       }
       path[now][k] = value;
       least_here = min(least_here, value);
