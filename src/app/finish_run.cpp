@@ -78,6 +78,7 @@ nlohmann::json report_of(const pipeline::RunSummary& summary, double seconds) {
           {"ground_depth_m", s.search.ground_depth_m},
           {"backend", sweep::to_string(s.backend)},
           {"instruction_set", s.instruction_set},
+          {"gpu_device", s.gpu_device},
           {"tiles",
            {{"planned", summary.tiles_planned},
             {"computed", summary.tiles_computed},

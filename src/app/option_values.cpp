@@ -66,10 +66,12 @@ std::size_t parse_memory(const std::string& text) {
   return static_cast<std::size_t>(value * factor);
 }
 
-sweep::Backend parse_backend(const std::string& text) {
-  if (text == "auto" || text == "cpu") return sweep::Backend::cpu;
+std::optional<sweep::Backend> parse_backend(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "cpu") return sweep::Backend::cpu;
+  if (text == "gpu") return sweep::Backend::gpu;
   if (text == "reference") return sweep::Backend::reference;
-  throw usage_error("--backend takes auto, cpu or reference, not '" + text + "'.");
+  throw usage_error("--backend takes auto, cpu, gpu or reference, not '" + text + "'.");
 }
 
 double require_positive(double value, const std::string& option) {

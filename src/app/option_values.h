@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "core/box.h"
@@ -12,11 +13,11 @@
 
 namespace skysweep::app {
 
-Vec3d parse_origin(const std::string& text);                     // "X,Y,Z"
-Box2d parse_area(const std::string& text);                       // "x0,y0,x1,y1"
-sweep::HeightRange parse_height_range(const std::string& text);  // "a,b"
-std::size_t parse_memory(const std::string& text);               // "4GiB", "800MiB", "2GB"
-sweep::Backend parse_backend(const std::string& text);           // "auto", "cpu", "reference"
+Vec3d parse_origin(const std::string& text);                           // "X,Y,Z"
+Box2d parse_area(const std::string& text);                             // "x0,y0,x1,y1"
+sweep::HeightRange parse_height_range(const std::string& text);        // "a,b"
+std::size_t parse_memory(const std::string& text);                     // "4GiB", "800MiB", "2GB"
+std::optional<sweep::Backend> parse_backend(const std::string& text);  // nothing for "auto"
 
 // The value itself if it is a positive, finite number.
 double require_positive(double value, const std::string& option);

@@ -79,6 +79,28 @@ ProjectChoice choose_project(const RunRequest& request, const ProjectPaths& path
   return {requested_configuration(request), std::nullopt};
 }
 
+namespace {
+
+void choose_engine(const RunRequest& request, ProjectSettings& project, Progress& progress) {
+  project.backend = request.backend ? *request.backend : sweep::default_backend();
+  if (project.backend == sweep::Backend::cpu) project.instruction_set = sweep::cpu_instruction_set_in_use();
+  if (project.backend != sweep::Backend::gpu) return;
+  sweep::GpuDevice device;
+  try {
+    device = sweep::gpu_device();
+  } catch (const Error& error) {
+    throw failure(std::string(error.what()) + " Use --backend cpu.");
+  }
+  project.gpu_device = device.name;
+  if (device.is_software)
+    progress.warn("The gpu backend runs on a software device (" + device.name +
+                  "): this machine has no GPU that OpenGL 4.5 can use. --backend cpu is many times faster.");
+  else
+    progress.note("GPU: " + device.name + ".");
+}
+
+}  // namespace
+
 ProjectSettings new_project_settings(const RunRequest& request, const Configuration& configuration,
                                      const std::vector<index::ImageRecord>& records, PhotoCache& photos,
                                      Executor& executor, Progress& progress) {
@@ -86,8 +108,7 @@ ProjectSettings new_project_settings(const RunRequest& request, const Configurat
   project.images = std::filesystem::absolute(request.images).lexically_normal();
   project.configuration = configuration;
   project.crs_wkt = request.crs ? raster::crs_from_user_input(*request.crs) : raster::local_metric_crs();
-  project.backend = request.backend.value_or(sweep::Backend::cpu);
-  if (project.backend == sweep::Backend::cpu) project.instruction_set = sweep::cpu_instruction_set_in_use();
+  choose_engine(request, project, progress);
   progress.begin("looking for the ground", 1);
   project.search = estimate_search_range(records, request.heights, photos, executor);
   progress.advance();
@@ -111,14 +132,37 @@ void make_project(const ProjectPaths& paths, const ProjectSettings& settings, bo
   write_project(paths, settings);
 }
 
-void use_recorded_instruction_set(const ProjectSettings& settings) {
-  if (settings.backend != sweep::Backend::cpu) return;
-  if (sweep::cpu_instruction_set_in_use() == settings.instruction_set) return;
+namespace {
+
+void require_recorded_device(const std::string& recorded) {
+  const std::string project = "This project was made by the gpu backend on " + recorded;
+  const std::string remedy = ": its tiles could not be continued bit for bit. Start over with --fresh.";
+  std::string here;
   try {
-    sweep::use_cpu_instruction_set(settings.instruction_set);
+    here = sweep::gpu_device().name;
+  } catch (const Error& error) {
+    throw failure(project + remedy + " " + error.what());
+  }
+  if (here != recorded) throw failure(project + ", and the device here is " + here + remedy);
+}
+
+void require_recorded_instruction_set(const std::string& recorded) {
+  if (sweep::cpu_instruction_set_in_use() == recorded) return;
+  try {
+    sweep::use_cpu_instruction_set(recorded);
   } catch (const Error&) {
-    throw failure("This project was made with the instruction set " + settings.instruction_set +
+    throw failure("This project was made with the instruction set " + recorded +
                   ", which this machine lacks: its tiles could not be continued bit for bit. Start over with --fresh.");
+  }
+}
+
+}  // namespace
+
+void use_recorded_engine(const ProjectSettings& settings) {
+  switch (settings.backend) {
+    case sweep::Backend::reference: return;
+    case sweep::Backend::cpu: return require_recorded_instruction_set(settings.instruction_set);
+    case sweep::Backend::gpu: return require_recorded_device(settings.gpu_device);
   }
 }
 

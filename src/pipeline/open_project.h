@@ -29,8 +29,8 @@ ProjectSettings new_project_settings(const RunRequest& request, const Configurat
 // Writes project.toml; with `fresh` what an earlier project left in the folder goes first.
 void make_project(const ProjectPaths& paths, const ProjectSettings& settings, bool fresh);
 
-// Goes on with the instruction set the project was made with, so that its tiles stay comparable bit for bit. Throws
-// Error(failed) if this machine lacks it.
-void use_recorded_instruction_set(const ProjectSettings& settings);
+// Goes on with the instruction set or GPU the project was made with, so that its tiles stay comparable bit for bit.
+// Throws Error(failed) if this machine lacks it.
+void use_recorded_engine(const ProjectSettings& settings);
 
 }  // namespace skysweep::pipeline

@@ -29,6 +29,12 @@ double required_positive(const TomlTable& table, const char* key) {
   return value;
 }
 
+sweep::Backend backend_named(const std::string& name, const TomlTable& table) {
+  for (const sweep::Backend backend : {sweep::Backend::reference, sweep::Backend::cpu, sweep::Backend::gpu})
+    if (name == sweep::to_string(backend)) return backend;
+  throw bad_input(table.where("backend") + " is unknown.");
+}
+
 SearchRange read_search(const TomlTable& table) {
   SearchRange search;
   search.ground_depth_m = required_positive(table, "ground_depth_m");
@@ -59,9 +65,10 @@ ProjectSettings read_project(const ProjectPaths& paths) {
                     "): run again with --fresh.");
   program.string("software");
   const std::string backend = required(program, "backend", program.string("backend"));
-  if (backend != "cpu" && backend != "reference") throw bad_input(program.where("backend") + " is unknown.");
-  settings.backend = backend == "cpu" ? sweep::Backend::cpu : sweep::Backend::reference;
+  settings.backend = backend_named(backend, program);
   settings.instruction_set = required(program, "instruction_set", program.string("instruction_set"));
+  if (settings.backend == sweep::Backend::gpu)
+    settings.gpu_device = required(program, "gpu_device", program.string("gpu_device"));
 
   const TomlTable map = section(toml, "map");
   settings.crs_wkt = required(map, "crs", map.string("crs"));
@@ -86,6 +93,7 @@ void write_settings(TomlWriter& toml, const ProjectSettings& settings) {
   toml.string("software", software_name());
   toml.string("backend", sweep::to_string(settings.backend));
   toml.string("instruction_set", settings.instruction_set);
+  if (settings.backend == sweep::Backend::gpu) toml.string("gpu_device", settings.gpu_device);
   toml.section("map");
   toml.string("crs", settings.crs_wkt);
   toml.string("crs_name", raster::crs_name(settings.crs_wkt));

@@ -34,7 +34,8 @@ struct ProjectSettings {
   SearchRange search;
   Configuration configuration;
   sweep::Backend backend = sweep::Backend::cpu;
-  std::string instruction_set;  // of the cpu backend; empty for the reference
+  std::string instruction_set;  // of the cpu backend; empty for the others
+  std::string gpu_device;       // of the gpu backend, by its driver's name; empty for the others
 };
 
 struct ProjectPaths {

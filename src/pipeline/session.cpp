@@ -14,6 +14,7 @@
 #include "pipeline/tile_scheduler.h"
 #include "raster/atomic_file.h"
 #include "settings/preset.h"
+#include "sweep/backend.h"
 #include "tiles/pyramid.h"
 
 namespace skysweep::pipeline {
@@ -43,12 +44,22 @@ void set_footprints(std::vector<index::ImageRecord>& records, const SearchRange&
     if (record.model.width_px > 0) record.footprint = ground_footprint(record, search);
 }
 
+// While it lives, what the GPU could not do reaches the user.
+class GpuTroubleAsWarnings {
+ public:
+  explicit GpuTroubleAsWarnings(Progress& progress) {
+    sweep::listen_to_gpu_trouble([&progress](const std::string& sentence) { progress.warn(sentence); });
+  }
+  ~GpuTroubleAsWarnings() { sweep::listen_to_gpu_trouble(nullptr); }
+};
+
 }  // namespace
 
 RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<bool>& stop) {
   const ProjectPaths paths(request.project);
   TbbExecutor executor(request.threads);
   RunSummary summary;
+  const GpuTroubleAsWarnings warnings(progress);
 
   const ProjectChoice choice = choose_project(request, paths);
   PhotographSet photographs =
@@ -66,7 +77,7 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
   require_countable_lattice(photographs.records, summary.settings);
   for (const std::string& warning : resolution_warnings(photographs.records, summary.settings)) progress.warn(warning);
   for (const std::string& warning : scatter_warnings(photographs.records)) progress.warn(warning);
-  use_recorded_instruction_set(summary.settings);
+  use_recorded_engine(summary.settings);
   set_footprints(photographs.records, summary.settings.search);
 
   const std::vector<tiles::TileKey> planned = Coverage(photographs.records, summary.settings).tiles(request.area);

@@ -2,6 +2,7 @@
 // The interchangeable engines of the sweep. All give the same answer within the bounds of tests/contract.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace skysweep::sweep {
 enum class Backend {
   reference,  // scalar, double precision, written to be read: the oracle of the others
   cpu,        // SIMD, the best instruction set the machine has, chosen at run time
+  gpu,        // OpenGL compute programs; what the device cannot do (lost, full) is computed by cpu, and said
 };
 
 const char* to_string(Backend backend);
@@ -26,6 +28,17 @@ MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor&
 // kept.
 CostVolume match_costs(const SweepProblem& problem, Backend backend, Executor& executor);
 MatchResult match_cell_by_cell(const SweepProblem& problem, Backend backend, Executor& executor);
+
+// The device of the gpu backend, opened on the first call. Throws Error(failed) that says why there is none.
+struct GpuDevice {
+  std::string name;
+  bool is_software = false;  // a rasteriser on the CPU (llvmpipe): correct, and slower than the cpu backend
+};
+GpuDevice gpu_device();
+// What suits this machine: gpu if it has a real one, else cpu.
+Backend default_backend();
+// Called with a sentence, from any thread, whenever a tile had to be computed by cpu instead; null: nobody listens.
+void listen_to_gpu_trouble(std::function<void(const std::string&)> listener);
 
 // The machine's ceiling for benches: takes `samples` bilinear samples along lines through the finest level of `image`
 // with the cpu backend's own instructions and nothing else, and returns their sum in stored units.

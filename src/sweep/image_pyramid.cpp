@@ -2,6 +2,7 @@
 #include "sweep/image_pyramid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "sweep/local_normalization.h"
@@ -57,9 +58,14 @@ LuminanceLevel prepared(Array2d<std::uint16_t> inner, Normalization normalizatio
   return level;
 }
 
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 }  // namespace
 
-ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization) {
+ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization) : id_(next_id()) {
   SKY_CHECK(!photograph.empty());
   Array2d<std::uint16_t> grey = luminance_of(photograph);
   color_.push_back(std::move(photograph));

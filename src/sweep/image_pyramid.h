@@ -59,6 +59,9 @@ class ImagePyramid {
   // Each level is normalised by itself, in its own pixels.
   explicit ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization = {});
 
+  // Tells photographs apart for as long as the program runs; a copy, being equal, has the same.
+  std::uint64_t id() const { return id_; }
+
   int width() const { return color_[0].width(); }
   int height() const { return color_[0].height(); }
   int levels() const { return static_cast<int>(luminance_.size()); }
@@ -75,6 +78,7 @@ class ImagePyramid {
   Rgb8 sample_color(Vec2d pixel, int level) const;
 
  private:
+  std::uint64_t id_;
   std::vector<LuminanceLevel> luminance_;
   std::vector<Array2d<Rgb8>> color_;
 };

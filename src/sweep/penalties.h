@@ -22,6 +22,8 @@ class Penalties {
         large_(units(problem.options.large_step_penalty)) {}
 
   int small() const { return small_; }                                         // P1
+  int large() const { return large_; }                                         // P2 away from edges
+  int contrast() const { return contrast_; }                                   // grey levels; 0: no edges
   int large(int from_column, int from_row, int to_column, int to_row) const {  // P2
     if (guide_.empty() || contrast_ == 0) return large_;
     const int from = guide_(from_column, from_row), to = guide_(to_column, to_row);

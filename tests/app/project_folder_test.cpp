@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What runs make of a project folder: the first, the second, the contradicting and the dry one.
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "app/simulated_flight.h"
@@ -64,6 +65,29 @@ TEST_F(ProjectFolder, contradicting_settings_are_refused_with_the_difference) {
   put_bytes(folder / "small_tiles.toml", "[tiles]\ncells = 128\ncollar_cells = 16\n");
   expect_refused({}, {"[tiles]", "cells = 64", "cells = 128"});
   EXPECT_TRUE(rasters_in(project()) == before);
+}
+
+// On a GPU or, as in CI, on the software device: the same map within a thousandth of a plane step, and a record of what
+// made it.
+TEST_F(ProjectFolder, gpu_backend_makes_the_same_map_and_is_recorded) {
+  const Outcome outcome = run({"--backend", "gpu"}, "gpu");
+  if (says(outcome.err, {"Use --backend cpu"})) GTEST_SKIP() << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_FALSE(says(outcome.err, {"what the GPU could not"})) << outcome.err;
+  const std::string device = report_of(project("gpu")).at("gpu_device");
+  EXPECT_FALSE(device.empty());
+  EXPECT_EQ(device.find("llvmpipe") != std::string::npos, says(outcome.err, {"software device"})) << outcome.err;
+  EXPECT_TRUE(says(file_bytes(project("gpu") / "project.toml"), {"backend = \"gpu\"", device}));
+  EXPECT_EQ(run({"--backend", "cpu"}, "cpu").exit_code, 0);
+  const auto by_gpu = raster::read_float_raster(project("gpu") / "dsm.tif").values;
+  const auto by_cpu = raster::read_float_raster(project("cpu") / "dsm.tif").values;
+  ASSERT_EQ(by_gpu.size(), by_cpu.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < by_cpu.size(); ++i) {
+    const float a = by_gpu.data()[i], b = by_cpu.data()[i];
+    different += std::isnan(a) != std::isnan(b) || std::abs(a - b) > 1e-4f;
+  }
+  EXPECT_LE(different, by_cpu.size() / 1000);
 }
 
 TEST_F(ProjectFolder, fresh_starts_over) {

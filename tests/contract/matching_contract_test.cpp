@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every backend, on every instruction set the machine has, must find what the scalar double-precision reference finds:
-// heights within 1e-3 of a plane step on 99.99 % of the cells, and a height where, and only where, the reference has
-// one.
+// Every backend, the cpu on every instruction set the machine has, the gpu on its device, must find what the scalar
+// double-precision reference finds: heights within 1e-3 of a plane step on 99.99 % of the cells, and a height where,
+// and only where, the reference has one.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 #include "core/executor.h"
@@ -125,6 +127,36 @@ std::vector<ContractCase> cases() {
          p.problem.block_planes(0, 2) = two_ranges({-2, 2}, {4, 4});
          return p;
        }},
+      {"views_hidden_by_a_known_surface",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         const Grid half{40, 40, 2 * p.problem.grid.cell_m, p.problem.grid.north_west_corner};
+         Array2d<float> surface(40, 40, std::numeric_limits<float>::quiet_NaN());
+         for (int y = 10; y < 30; ++y)
+           for (int x = 15; x < 22; ++x) surface(x, y) = 2.5f;
+         const Array2d<std::uint8_t> everywhere(40, 40, 1);
+         SerialExecutor serial;
+         p.problem.visibility = {std::make_shared<const Horizons>(
+                                     half, p.problem.views, HorizonQuestion{surface, everywhere, -3, 0.1, 0}, serial),
+                                 2, 0};
+         p.problem.options.min_views = 3;
+         return p;
+       }},
+      {"smoothing_along_expected_slopes",
+       [] {
+         SyntheticProblem p = standard(6, rolling);
+         const Grid& grid = p.problem.grid;
+         p.problem.expected_plane = Array2d<float>(grid.width, grid.height);
+         for (int y = 0; y < grid.height; ++y) {
+           for (int x = 0; x < grid.width; ++x) {
+             const Vec2d cell = grid.cell_center(x, y);
+             p.problem.expected_plane(x, y) =
+                 x > 60 ? std::numeric_limits<float>::quiet_NaN()
+                        : static_cast<float>(1.5 * rolling(cell.x, cell.y) / p.problem.dz_m + (y > 50 ? 20 : 0));
+           }
+         }
+         return p;
+       }},
       {"oblique_views",
        [] {
          SyntheticProblem p;
@@ -169,7 +201,39 @@ void compare(const SweepProblem& problem, const MatchResult& expected, const Mat
   }
 }
 
-// Runs all cases once through the reference and once through every instruction set, with or without smoothing.
+// A backend as it is tried: the cpu once on each instruction set.
+struct Candidate {
+  std::string name;
+  Backend backend;
+};
+
+std::optional<std::string> why_no_gpu() {
+  try {
+    gpu_device();
+    return std::nullopt;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+std::vector<Candidate> candidates() {
+  std::vector<Candidate> all;
+  for (const std::string& name : cpu_instruction_sets()) all.push_back({name, Backend::cpu});
+  if (!why_no_gpu()) all.push_back({"gpu", Backend::gpu});
+  return all;
+}
+
+// Makes ready for the candidate; what the GPU leaves to the cpu is a failure here.
+void use(const Candidate& candidate) {
+  if (candidate.backend == Backend::gpu) {
+    listen_to_gpu_trouble([](const std::string& sentence) { ADD_FAILURE() << sentence; });
+    return;
+  }
+  use_cpu_instruction_set(candidate.name);
+  EXPECT_EQ(cpu_instruction_set_in_use(), candidate.name);
+}
+
+// Runs all cases once through the reference and once through every candidate, with or without smoothing.
 std::map<std::string, Agreement> agreement_with_reference(
     const std::function<MatchResult(const SweepProblem&, Backend)>& match) {
   std::map<std::string, Agreement> agreements;
@@ -177,10 +241,10 @@ std::map<std::string, Agreement> agreement_with_reference(
     const SyntheticProblem p = c.make();
     p.problem.check();
     const MatchResult expected = match(p.problem, Backend::reference);
-    for (const std::string& name : cpu_instruction_sets()) {
-      use_cpu_instruction_set(name);
-      EXPECT_EQ(cpu_instruction_set_in_use(), name);
-      const MatchResult actual = match(p.problem, Backend::cpu);
+    for (const Candidate& candidate : candidates()) {
+      use(candidate);
+      const std::string& name = candidate.name;
+      const MatchResult actual = match(p.problem, candidate.backend);
       Agreement here;
       compare(p.problem, expected, actual, here);
       EXPECT_LE(here.different, here.cells / 1000) << c.name << " on " << name;
@@ -244,15 +308,55 @@ TEST(MatchingContract, smoothing_is_exact) {
               random.below(9) == 0 ? kWorstCost : static_cast<Cost>(random.below(kWorstCost));
       });
   for (const double large : {0.0, 8.0, 60.0}) {
+    // The last time along slopes, some of them too steep to be followed, and with cheaper steps at edges.
+    if (large == 60) {
+      problem.expected_plane = Array2d<float>(problem.grid.width, problem.grid.height);
+      for (float& plane : problem.expected_plane) plane = 0.5f * static_cast<float>(random.below(20));
+      problem.guide = Array2d<std::uint8_t>(problem.grid.width, problem.grid.height);
+      for (std::uint8_t& grey : problem.guide) grey = static_cast<std::uint8_t>(random.below(100));
+    }
     problem.options.small_step_penalty = large / 8;
     problem.options.large_step_penalty = large;
     const CostVolume expected = smooth(problem, costs, Backend::reference);
-    for (const std::string& name : cpu_instruction_sets()) {
-      use_cpu_instruction_set(name);
-      EXPECT_TRUE(expected == smooth(problem, costs, Backend::cpu)) << name << ", P2 = " << large;
+    for (const Candidate& candidate : candidates()) {
+      use(candidate);
+      EXPECT_TRUE(expected == smooth(problem, costs, candidate.backend)) << candidate.name << ", P2 = " << large;
     }
   }
   use_cpu_instruction_set(cpu_instruction_sets().front());
+}
+
+void keep_corner(SweepProblem& problem, int cells) {
+  problem.grid.width = problem.grid.height = cells;
+  problem.block_planes = crop(problem.block_planes, 0, 0, blocks_across(cells), blocks_across(cells));
+}
+
+// The costs themselves: below 2e-3 grey levels apart, but where a view's border or fold runs through the cell.
+TEST(MatchingContract, costs) {
+  SerialExecutor serial;
+  for (const ContractCase& c : cases()) {
+    if (c.name == "thirty_two_views") continue;  // slow in the reference, and covered above
+    SyntheticProblem p = c.make();
+    keep_corner(p.problem, 34);
+    const CostVolume expected = match_costs(p.problem, Backend::reference, serial);
+    for (const Candidate& candidate : candidates()) {
+      use(candidate);
+      const CostVolume actual = match_costs(p.problem, candidate.backend, serial);
+      std::size_t bad = 0, values = 0;
+      for (int y = 0; y < expected.height(); ++y)
+        for (int x = 0; x < expected.width(); ++x)
+          for (int i = 0; i < CostVolume::padded_planes(expected.planes_at(x, y)); ++i, ++values)
+            bad += std::abs(expected.cell(x, y)[i] - actual.cell(x, y)[i]) > 2e-3 * kCostScale;
+      EXPECT_LE(bad, values / 10000) << c.name << " on " << candidate.name << " of " << values;
+    }
+  }
+  use_cpu_instruction_set(cpu_instruction_sets().front());
+}
+
+// Whether the cases above ran on a GPU.
+TEST(MatchingContract, has_a_gpu) {
+  if (const auto reason = why_no_gpu()) GTEST_SKIP() << *reason;
+  EXPECT_FALSE(gpu_device().name.empty());
 }
 
 TEST(Backends, unknown_instruction_set_is_refused) { EXPECT_THROW(use_cpu_instruction_set("AVX9"), Error); }

@@ -30,7 +30,7 @@ void print_project(const pipeline::ProjectPaths& paths) {
   std::printf("lattice    cells of %g m, tiles of %d x %d cells, plane step %g m\n", s.lattice.cell_m,
               s.lattice.tile_cells, s.lattice.tile_cells, s.lattice.dz_m);
   std::printf("ground     about %.4g m below the cameras\nbackend    %s %s\n", s.search.ground_depth_m,
-              sweep::to_string(s.backend), s.instruction_set.c_str());
+              sweep::to_string(s.backend), (s.instruction_set + s.gpu_device).c_str());
   int used = 0;
   for (const index::ImageRecord& image : images) used += image.status == index::ImageStatus::used;
   std::printf("photos     %d of %zu used, from %s\n", used, images.size(), s.images.c_str());

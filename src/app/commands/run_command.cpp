@@ -103,7 +103,8 @@ void add_run_command(CLI::App& program, ChosenCommand& chosen) {
   command->add_option("--z-range", o->heights, "LOW,HIGH: search these heights only (default: found by itself)");
   command->add_option("--preset", o->preset, "fast, balanced (default) or accurate");
   command->add_option("--config", o->config, "TOML file over the preset");
-  command->add_option("--backend", o->backend, "auto (default), cpu or reference");
+  command->add_option("--backend", o->backend,
+                      "auto (default: gpu if the machine has a real one, else cpu), cpu, gpu or reference");
   command->add_option("--memory", o->memory, "Most memory to use, e.g. 4GiB (default: half of the machine's)");
   command->add_option("--threads", o->threads, "Number of threads (default: all)");
   command->add_flag(
