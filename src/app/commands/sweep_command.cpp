@@ -17,6 +17,7 @@
 #include "sweep/heights.h"
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
+#include "sweep/plane_sweep.h"
 #include "sweep/speckles.h"
 
 namespace skysweep::app {
