@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/plane_sweep.h"
 
+#include <algorithm>
+
 #include "sweep/coarse_to_fine.h"
 #include "sweep/filling.h"
 #include "sweep/heights.h"
@@ -18,7 +20,9 @@ MatchResult search(const SweepProblem& problem, Backend backend, Executor& execu
   NarrowedSearch narrowed = narrow_search(problem, backend, executor, samples);
   samples += sample_count(narrowed.problem);
   MatchResult matches = match_planes(narrowed.problem, backend, executor);
-  matches.mean_cost = std::move(narrowed.mean_cost);
+  // On weak texture the coarse grid's mean has less noise than any cost here, right or wrong.
+  for (std::size_t i = 0; i < matches.mean_cost.size(); ++i)
+    matches.mean_cost.data()[i] = std::max(matches.mean_cost.data()[i], narrowed.mean_cost.data()[i]);
   return matches;
 }
 

@@ -36,7 +36,7 @@ struct SweepOptions {
 
   // Only pixels that differ by at most so many grey levels from the one in the middle count for its normalisation: what
   // lies beyond an edge does not. 0: all count.
-  int normalization_tolerance = 48;
+  int normalization_tolerance = 80;
 
   // Coarser grids that are searched first, each with cells twice as large as the next: the first everywhere, the others
   // and the fine one only near what it found; 0: everywhere at once (sweep/coarse_to_fine.h).
@@ -73,13 +73,13 @@ struct SweepOptions {
 
   // Prices of height steps between neighbouring cells, grey levels of matching cost: P1 for one plane, P2 for more.
   // Higher ones fill weak texture and swallow thin things.
-  double small_step_penalty = 2;
+  double small_step_penalty = 1;
   double large_step_penalty = 12;
 
   // With smoothing: the height between planes is steadied by the costs of the cells up to this many columns and rows
   // away that lie on the same surface (sweep/sub_plane.h); 0: each cell from its own path sums, which locks heights to
   // the planes.
-  int refinement_radius_cells = 3;
+  int refinement_radius_cells = 4;
 
   // Most that the cost volume of a tile may take (its sums take as much again): a larger one is swept in bands.
   int volume_limit_mib = 512;
@@ -89,7 +89,7 @@ struct SweepOptions {
 
   // Added to the cost of a sample, divided by the number of views that show it, grey levels: of few views some agree by
   // chance, and without this a plane that fewer views can show would win for that reason alone.
-  double few_views_penalty = 3;
+  double few_views_penalty = 1.5;
 
   // Mean absolute difference in grey levels above which the best plane is not believed.
   double max_cost = 40;
@@ -100,7 +100,7 @@ struct SweepOptions {
 
   // Uneven patches of heights smaller than this that stand apart from their surroundings are not believed
   // (sweep/speckles.h): more removes more false matches, and small things with them. 0: all are believed.
-  int speckle_cells = 32;
+  int speckle_cells = 0;
 
   // Cells that fewer than min_views views can see past the surface around them get the height of the lower side of
   // that surface, marked as such in the mask; false leaves them empty.
