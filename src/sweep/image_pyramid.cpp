@@ -41,7 +41,7 @@ Array2d<T> halve(const Array2d<T>& fine, Combine combine) {
 constexpr unsigned rounded_mean(unsigned a, unsigned b, unsigned c, unsigned d) { return (a + b + c + d + 2) / 4; }
 
 LuminanceLevel prepared(Array2d<std::uint16_t> inner, Normalization normalization) {
-  if (normalization.tolerance > 0)
+  if (normalization.radius_px > 0 && normalization.tolerance > 0)
     normalize_similar(inner, normalization.radius_px, normalization.tolerance * static_cast<int>(kLuminanceScale));
   else if (normalization.radius_px > 0)
     normalize_locally(inner, normalization.radius_px);

@@ -35,7 +35,7 @@ struct SweepOptions {
   int normalization_radius_px = 2;
 
   // Only pixels that differ by at most so many grey levels from the one in the middle count for its normalisation: what
-  // lies beyond an edge does not. 0: all count.
+  // lies beyond an edge does not. 0: all count, and the radius may exceed 5.
   int normalization_tolerance = 80;
 
   // Coarser grids that are searched first, each with cells twice as large as the next: the first everywhere, the others

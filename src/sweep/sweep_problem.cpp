@@ -23,9 +23,9 @@ std::optional<std::string> SweepOptions::problem() const {
     return "normalization_radius_px must lie between 0 (off) and 100";
   if (normalization_tolerance < 0 || normalization_tolerance > 255)
     return "normalization_tolerance must lie between 0 (off) and 255 grey levels";
-  if (normalization_tolerance > 0 && (normalization_radius_px < 1 || normalization_radius_px > kLargestSimilarRadius))
-    return "normalization_tolerance needs a normalization_radius_px between 1 and " +
-           std::to_string(kLargestSimilarRadius);
+  if (normalization_tolerance > 0 && normalization_radius_px > kLargestSimilarRadius)
+    return "a normalization_radius_px of more than " + std::to_string(kLargestSimilarRadius) +
+           " needs normalization_tolerance = 0: all pixels in the window count then";
   if (!(consensus_share > 0 && consensus_share <= 1)) return "consensus_share must lie above 0 and not above 1";
   if (!(small_step_penalty >= 0 && large_step_penalty >= small_step_penalty && large_step_penalty <= 60))
     return "penalties must satisfy 0 <= small_step_penalty <= large_step_penalty <= 60 grey levels";
