@@ -19,6 +19,7 @@ class Speckles : public testing::Test {
     problem_.grid = {40, 40, 0.1, {0, 4}};
     problem_.dz_m = kPlaneStep;
     problem_.search_everywhere({-10, 200});
+    problem_.options.speckle_cells = 32;
     heights_ = {Array2d<float>(40, 40, 0.0f), Array2d<float>(40, 40, 0.01f)};
   }
 
@@ -61,6 +62,12 @@ TEST_F(Speckles, single_cells_above_and_below_are_not_believed) {
   put(5, 5, 1, 1, [](int, int) { return 3; });
   put(20, 9, 1, 1, [](int, int) { return -0.9; });
   EXPECT_EQ(taken_back(0, 0, 40, 40), 2);
+}
+
+TEST_F(Speckles, patches_among_nothing_but_patches_stay) {
+  Random random(4);
+  put(0, 0, 40, 40, [&](int, int) { return random.uniform(0, 20); });  // the crown of a tree
+  EXPECT_EQ(taken_back(0, 0, 40, 40), 0);
 }
 
 TEST_F(Speckles, the_level_top_of_a_mast_stays) {
