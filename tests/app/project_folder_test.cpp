@@ -67,9 +67,9 @@ TEST_F(ProjectFolder, contradicting_settings_are_refused_with_the_difference) {
   EXPECT_TRUE(rasters_in(project()) == before);
 }
 
-// On a GPU or, as in CI, on the software device: the same map, and a record of what made it. Each stage agrees within the
-// bounds of tests/contract. From coarse to fine, a difference in the last digit can tip the rounding of a slope for the
-// next grid, and with it the smoothing around: of the whole chain all but 5 % of the cells agree to a centimetre.
+// On a GPU or, as in CI, on the software device: the same map, and a record of what made it. Each stage agrees within
+// the bounds of tests/contract. From coarse to fine, a difference in the last digit can tip the rounding of a slope for
+// the next grid, and with it the smoothing around: of the whole chain all but 5 % of the cells agree to a centimetre.
 TEST_F(ProjectFolder, gpu_backend_makes_the_same_map_and_is_recorded) {
   const Outcome outcome = run({"--backend", "gpu"}, "gpu");
   if (says(outcome.err, {"Use --backend cpu"})) GTEST_SKIP() << outcome.err;
