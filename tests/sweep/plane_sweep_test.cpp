@@ -159,7 +159,7 @@ TEST(SweepOptions, each_changes_the_result) {
   EXPECT_TRUE(differs([](SweepOptions& o) { o.large_step_penalty = 1; }));
   EXPECT_TRUE(differs([](SweepOptions& o) { o.min_views = 5; }));
   EXPECT_TRUE(differs([](SweepOptions& o) { o.few_views_penalty = 60; }));
-  EXPECT_TRUE(differs([](SweepOptions& o) { o.max_cost = 2; }));
+  EXPECT_TRUE(differs([](SweepOptions& o) { o.max_cost = 1; }));
   EXPECT_TRUE(differs([](SweepOptions& o) { o.max_cost_to_mean = 0.1; }));
 }
 
