@@ -61,7 +61,7 @@ def measured(program, flight, folder, options):
 
 def row(name, figures, report, cpu):
     overall, edges = figures["overall"], figures["edges"]["buildings"]["scores"][0]
-    return (f"| {name} | {100 * overall['within_2_gsd']:.1f} % | {100 * overall['within_6_gsd']:.1f} % "
+    return (f"| {name} | {100 * overall['within_2_gsd']['of_all']:.1f} % | {100 * overall['within_6_gsd']['of_all']:.1f} % "
             f"| {overall['median_absolute_gsd']:.2f} | {overall['le90_gsd']:.1f} | {edges['f_score']:.2f} "
             f"| {report['samples'] / 1e9:.1f} G | {cpu:.0f} s |")
 

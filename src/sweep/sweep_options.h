@@ -46,7 +46,7 @@ struct SweepOptions {
   double rival_tolerance = 1;
 
   // On the finest of the coarser grids: how often the search is repeated with the views that see past the surface found
-  // so far, where that surface is not sure (sweep/occlusion.h).
+  // so far, where that surface is not sure (sweep/horizons.h).
   int visibility_passes = 1;
 
   // A height is sure when the next best of its cell costs at least so much more, grey levels.

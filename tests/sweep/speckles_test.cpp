@@ -18,6 +18,7 @@ class Speckles : public testing::Test {
   Speckles() {
     problem_.grid = {40, 40, 0.1, {0, 4}};
     problem_.dz_m = kPlaneStep;
+    problem_.options.speckle_cells = 32;
     problem_.search_everywhere({-10, 200});
     problem_.options.speckle_cells = 32;
     heights_ = {Array2d<float>(40, 40, 0.0f), Array2d<float>(40, 40, 0.01f)};
