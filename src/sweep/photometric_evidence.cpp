@@ -24,7 +24,8 @@ double mean_penalty(const SweepOptions& options, const ShownPlanes& shown, const
   return counted > 0 ? sum / counted : 0;
 }
 
-bool has_evidence(const SweepProblem& problem, const MatchResult& matches, int column, int row, ShownPlanes& shown) {
+bool has_evidence(const SweepProblem& problem, const MatchResult& matches, int column, int row, double mean_error,
+                  ShownPlanes& shown) {
   const SweepOptions& options = problem.options;
   const double cost = matches.cost(column, row), mean = matches.mean_cost(column, row);
   const double least_penalty = options.few_views_penalty / std::max<std::size_t>(2, problem.views.size());
@@ -36,7 +37,7 @@ bool has_evidence(const SweepProblem& problem, const MatchResult& matches, int c
   const int n = shown.views_at(matches.plane(column, row));
   const double own = n < options.min_views ? largest_penalty : options.few_views_penalty / n;
   // Costs come in single precision: what is left of them below this is rounding.
-  const double rounding = 1e-5 * (1 + mean);
+  const double rounding = 1e-5 * (1 + mean) + mean_error;
   const double photometric_mean = mean - mean_penalty(options, shown, planes);
   return cost - own + rounding < options.max_cost_to_mean * photometric_mean;
 }
@@ -44,13 +45,14 @@ bool has_evidence(const SweepProblem& problem, const MatchResult& matches, int c
 }  // namespace
 
 void drop_heights_without_evidence(const SweepProblem& problem, const MatchResult& matches, Executor& executor,
-                                   Heights& heights) {
+                                   Heights& heights, double mean_error) {
   constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
   if (problem.options.max_cost_to_mean >= 1) return;  // everything is to be believed
   executor.parallel_for(problem.grid.height, [&](int row) {
     ShownPlanes shown(problem);
     for (int column = 0; column < problem.grid.width; ++column) {
-      if (std::isnan(heights.height_m(column, row)) || has_evidence(problem, matches, column, row, shown)) continue;
+      if (std::isnan(heights.height_m(column, row)) || has_evidence(problem, matches, column, row, mean_error, shown))
+        continue;
       heights.height_m(column, row) = heights.sigma_m(column, row) = kNoData;
     }
   });

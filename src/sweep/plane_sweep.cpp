@@ -2,6 +2,8 @@
 #include "sweep/plane_sweep.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "sweep/coarse_to_fine.h"
 #include "sweep/filling.h"
@@ -12,26 +14,56 @@
 
 namespace skysweep::sweep {
 
-MatchResult search(const SweepProblem& problem, Backend backend, Executor& executor, double& samples) {
+Search search(const SweepProblem& problem, Backend backend, Executor& executor) {
+  Search found;
   if (problem.options.coarse_levels == 0) {
-    samples += sample_count(problem);
-    return match_planes(problem, backend, executor);
+    found.problem = problem;
+    found.samples = sample_count(problem);
+    found.matches = match_planes(problem, backend, executor);
+    return found;
   }
-  NarrowedSearch narrowed = narrow_search(problem, backend, executor, samples);
-  samples += sample_count(narrowed.problem);
-  MatchResult matches = match_planes(narrowed.problem, backend, executor);
+  NarrowedSearch narrowed = narrow_search(problem, backend, executor, found.samples);
+  found.problem = std::move(narrowed.problem);
+  found.samples += sample_count(found.problem);
+  found.matches = match_planes(found.problem, backend, executor);
+  found.searched_mean = found.matches.mean_cost;
+  found.all_mean = std::move(narrowed.mean_cost);
   // On weak texture the coarse grid's mean has less noise than any cost here, right or wrong.
-  for (std::size_t i = 0; i < matches.mean_cost.size(); ++i)
-    matches.mean_cost.data()[i] = std::max(matches.mean_cost.data()[i], narrowed.mean_cost.data()[i]);
-  return matches;
+  for (std::size_t i = 0; i < found.all_mean.size(); ++i)
+    found.matches.mean_cost.data()[i] = std::max(found.searched_mean.data()[i], found.all_mean.data()[i]);
+  return found;
+}
+
+Heights distinct_heights(const SweepProblem& problem, const Search& found, Executor& executor) {
+  Heights heights = heights_from_matches(problem, found.matches);
+  const auto keep = [&](const SweepProblem& planes, const Array2d<float>& mean_cost, double mean_error, Heights& kept) {
+    MatchResult matches = found.matches;
+    if (!mean_cost.empty()) matches.mean_cost = mean_cost;
+    drop_heights_without_evidence(planes, matches, executor, kept, mean_error);
+  };
+  if (found.all_mean.empty()) {
+    keep(problem, {}, 0, heights);
+    return heights;
+  }
+  // Either mean is evidence, but only against the photographs that come and go over its own planes.
+  Heights by_searched = heights;
+  keep(found.problem, found.searched_mean, 0, by_searched);
+  // The coarse grid counted the views at other places and planes.
+  keep(problem, found.all_mean, 0.5 * problem.options.few_views_penalty, heights);
+  for (std::size_t i = 0; i < heights.height_m.size(); ++i) {
+    if (!std::isnan(heights.height_m.data()[i])) continue;
+    heights.height_m.data()[i] = by_searched.height_m.data()[i];
+    heights.sigma_m.data()[i] = by_searched.sigma_m.data()[i];
+  }
+  return heights;
 }
 
 SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor) {
   problem.check();
   SweepResult result;
-  const MatchResult matches = search(problem, backend, executor, result.samples);
-  Heights heights = heights_from_matches(problem, matches);
-  drop_heights_without_evidence(problem, matches, executor, heights);
+  const Search found = search(problem, backend, executor);
+  result.samples = found.samples;
+  Heights heights = distinct_heights(problem, found, executor);
   drop_speckles(problem, heights);
   result.filled = fill_hidden_cells(problem, executor, heights);
   result.height_m = std::move(heights.height_m);

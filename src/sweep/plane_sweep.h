@@ -4,14 +4,25 @@
 #pragma once
 
 #include "sweep/backend.h"
+#include "sweep/heights.h"
 #include "sweep/sweep_problem.h"
 #include "sweep/sweep_result.h"
 
 namespace skysweep::sweep {
 
-// The search alone, from coarse to fine if options.coarse_levels says so, else everywhere at once. The samples it takes
-// are added to `samples`.
-MatchResult search(const SweepProblem& problem, Backend backend, Executor& executor, double& samples);
+struct Search {
+  MatchResult matches;           // mean_cost: the larger of the two
+  SweepProblem problem;          // with the planes that were searched in the end
+  Array2d<float> all_mean;       // mean cost over all planes asked; empty when these are all the planes
+  Array2d<float> searched_mean;  // over the planes searched in the end; empty likewise
+  double samples = 0;            // luminance samples taken
+};
+
+// The search alone, from coarse to fine if options.coarse_levels says so, else everywhere at once.
+Search search(const SweepProblem& problem, Backend backend, Executor& executor);
+
+// Heights of the search, where something distinguishes them.
+Heights distinct_heights(const SweepProblem& problem, const Search& found, Executor& executor);
 
 SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor);
 

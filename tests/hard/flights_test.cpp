@@ -130,8 +130,9 @@ class HardFlight : public testing::Test {
       for (int y = 0; y < tile->dem.height(); ++y) {
         for (int x = 0; x < tile->dem.width(); ++x) {
           const float z = tile->dem(x, y), sigma = tile->confidence(x, y);
-          unsound += std::isinf(z) || std::isinf(sigma) || std::isnan(z) != std::isnan(sigma);
-          unsound += (tile->mask(x, y) == 1) == std::isnan(z);
+          const bool measured = tile->mask(x, y) == 1, filled = tile->mask(x, y) == 2;
+          unsound += std::isinf(z) || std::isinf(sigma) || measured == std::isnan(sigma);
+          unsound += (measured || filled) == std::isnan(z);
           const double east = corner.x + (x + 0.5) * store.lattice().cell_m - request.origin.x;
           const double north = corner.y - (y + 0.5) * store.lattice().cell_m - request.origin.y;
           const Vec2d nw = truth.georeference.north_west_corner;

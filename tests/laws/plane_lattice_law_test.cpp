@@ -15,8 +15,8 @@ class PlaneLatticeLaw : public SmallFlight {};
 
 TEST_F(PlaneLatticeLaw, a_wider_height_range_moves_no_height_that_wins_in_both) {
   // Every cell by itself, searched everywhere: with smoothing, or from coarse to fine, a neighbour that finds another
-  // plane may change a cell, too.
-  write_tile_settings("[sweep]\nsmoothing = \"none\"\ncoarse_levels = 0\n");
+  // plane may change a cell, too; and gaps are filled from their surroundings.
+  write_tile_settings("[sweep]\nsmoothing = \"none\"\ncoarse_levels = 0\nfill = false\n");
   pipeline::RunRequest r = request("project");
   r.dry_run = true;
   const pipeline::RunSummary summary = run(r);

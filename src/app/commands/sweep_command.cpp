@@ -87,10 +87,9 @@ int dump_tile(const SweepOptions& options) {
   pipeline::PreparedTile tile = pipeline::prepare_tile(*key, coverage.candidates(*key), settings, photos, executor);
   tile.problem.collar_cells = 0;  // here the collar's colours are wanted, too
   const sweep::SweepProblem& problem = tile.problem;
-  double samples = 0;
-  const sweep::MatchResult matches = sweep::search(problem, settings.backend, executor, samples);
-  sweep::Heights heights = sweep::heights_from_matches(problem, matches);
-  sweep::drop_heights_without_evidence(problem, matches, executor, heights);
+  const sweep::Search found = sweep::search(problem, settings.backend, executor);
+  const sweep::MatchResult& matches = found.matches;
+  sweep::Heights heights = sweep::distinct_heights(problem, found, executor);
   const Array2d<float> matched_height_m = heights.height_m;
   sweep::drop_speckles(problem, heights);
   sweep::SweepResult result;
@@ -131,7 +130,7 @@ int dump_tile(const SweepOptions& options) {
   raster::write_bytes_atomically(std::filesystem::path(options.folder) / "views.txt", views);
   raster::write_bytes_atomically(std::filesystem::path(options.folder) / "selection.txt", selection_text(tile));
   std::printf("%s: %zu photographs, %.3g samples; every stage lies in %s\n", key->name().c_str(), problem.views.size(),
-              samples, options.folder.c_str());
+              found.samples, options.folder.c_str());
   return 0;
 }
 
