@@ -94,8 +94,8 @@ struct SweepOptions {
   // Mean absolute difference in grey levels above which the best plane is not believed.
   double max_cost = 40;
 
-  // The cost of the best plane must stay below the mean over all planes searched by this factor, or nothing
-  // distinguishes it: 1 believes everything.
+  // The cost of the best plane must stay below the mean cost by this factor, or nothing distinguishes it: 1 believes
+  // everything. The mean is the larger of that over all planes, from the coarsest grid, and that over those left.
   double max_cost_to_mean = 0.95;
 
   // Uneven patches of heights smaller than this that stand apart from their surroundings are not believed
