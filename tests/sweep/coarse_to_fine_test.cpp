@@ -47,8 +47,7 @@ NarrowedSearch narrowed(const SweepProblem& problem, double* samples = nullptr) 
 
 Heights heights_of(const SweepProblem& problem) {
   SerialExecutor serial;
-  double samples = 0;
-  return heights_from_matches(problem, search(problem, Backend::cpu, serial, samples));
+  return heights_from_matches(problem, search(problem, Backend::cpu, serial).matches);
 }
 
 bool same(const Array2d<float>& a, const Array2d<float>& b) {
