@@ -18,6 +18,7 @@
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
 #include "sweep/plane_sweep.h"
+#include "sweep/ray_geometry.h"
 #include "sweep/speckles.h"
 
 namespace skysweep::app {
@@ -116,10 +117,19 @@ int dump_tile(const SweepOptions& options) {
   out.write("mean_cost", matches.mean_cost, "mean matching cost over all planes", "grey level");
   out.write("fraction", matches.fraction, "vertex of the cost parabola above the best plane", "dz");
   out.write("bend", matches.bend, "second difference of the cost at the best plane", "grey level");
+  out.write("rival_plane", converted<float>(matches.rival_plane, [](int k) { return static_cast<float>(k); }),
+            "plane of the next best minimum", "dz");
+  out.write("rival_excess", matches.rival_excess, "how much more that costs", "grey level");
   out.write("matched_height", matched_height_m, "surface height before speckles are taken back", "metre", true);
   out.write("filled", result.filled, "1 where the height is that of the surroundings", "");
   out.write("height", heights.height_m, "surface height", "metre", true);
   out.write("sigma", heights.sigma_m, "standard deviation of the height", "metre");
+  const Array2d<double> per_block = sweep::height_per_pixel(problem, matched_height_m);
+  Array2d<float> per_pixel(heights.height_m.width(), heights.height_m.height());
+  for (int y = 0; y < per_pixel.height(); ++y)
+    for (int x = 0; x < per_pixel.width(); ++x)
+      per_pixel(x, y) = static_cast<float>(per_block(x / sweep::kBlockCells, y / sweep::kBlockCells));
+  out.write("height_per_pixel", per_pixel, "height error of one pixel", "metre");
   out.write("color", result.color, "orthophoto", "");
   out.write("color_view",
             converted<std::uint8_t>(result.color_view, [](std::int8_t v) { return static_cast<std::uint8_t>(v + 1); }),
