@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sweep/heights.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,23 +8,17 @@
 namespace skysweep::sweep {
 namespace {
 
-constexpr double kSmallestSigmaPlanes = 0.1;
 // Costs come in single precision: a bend of the curve below this share of the cost is rounding, not texture.
 constexpr double kSmallestBend = 1e-5;
 
-struct Height {
-  double z, sigma;
-};
-
-std::optional<Height> height_of_cell(const SweepProblem& problem, const MatchResult& m, int column, int row) {
+std::optional<double> height_of_cell(const SweepProblem& problem, const MatchResult& m, int column, int row) {
   const SweepOptions& options = problem.options;
   const double cost = m.cost(column, row), bend = m.bend(column, row);
   if (!std::isfinite(cost) || !(bend > kSmallestBend * (1 + cost))) return std::nullopt;
   if (cost > options.max_cost) return std::nullopt;
   const bool believe_everything = options.max_cost_to_mean >= 1;
   if (!believe_everything && cost > options.max_cost_to_mean * m.mean_cost(column, row)) return std::nullopt;
-  const double sigma_planes = std::max(kSmallestSigmaPlanes, cost / bend);
-  return Height{(m.plane(column, row) + m.fraction(column, row)) * problem.dz_m, sigma_planes * problem.dz_m};
+  return (m.plane(column, row) + m.fraction(column, row)) * problem.dz_m;
 }
 
 }  // namespace
@@ -36,10 +29,8 @@ Heights heights_from_matches(const SweepProblem& problem, const MatchResult& mat
   Heights out{Array2d<float>(width, height, kNoData), Array2d<float>(width, height, kNoData)};
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
-      const std::optional<Height> found = height_of_cell(problem, matches, column, row);
-      if (!found) continue;
-      out.height_m(column, row) = static_cast<float>(found->z);
-      out.sigma_m(column, row) = static_cast<float>(found->sigma);
+      if (const auto z = height_of_cell(problem, matches, column, row))
+        out.height_m(column, row) = static_cast<float>(*z);
     }
   }
   return out;

@@ -7,6 +7,7 @@
 
 #include "sweep/coarse_to_fine.h"
 #include "sweep/filling.h"
+#include "sweep/height_sigma.h"
 #include "sweep/heights.h"
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
@@ -65,6 +66,7 @@ SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& 
   result.samples = found.samples;
   Heights heights = distinct_heights(problem, found, executor);
   drop_speckles(problem, heights);
+  set_sigma(problem, found.matches, heights);
   result.filled = fill_hidden_cells(problem, executor, heights);
   result.height_m = std::move(heights.height_m);
   result.sigma_m = std::move(heights.sigma_m);

@@ -14,11 +14,11 @@
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
 #include "sweep/filling.h"
+#include "sweep/height_sigma.h"
 #include "sweep/heights.h"
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
 #include "sweep/plane_sweep.h"
-#include "sweep/ray_geometry.h"
 #include "sweep/speckles.h"
 
 namespace skysweep::app {
@@ -61,6 +61,20 @@ Array2d<To> converted(const Array2d<From>& values, Convert convert) {
   return out;
 }
 
+// What scripts/fit_sigma.py reads.
+void write_signs(const sweep::SigmaSigns& signs, StageWriter& out) {
+  out.write("height_per_pixel", signs.height_per_pixel_m, "height error of one pixel", "metre");
+  out.write("step_5", signs.step_5_m, "height range of 5 x 5 cells", "metre");
+  out.write("step_17", signs.step_17_m, "height range of 17 x 17 cells", "metre");
+  out.write("offset", signs.offset_m, "distance from the mean height of 9 x 9 cells", "metre");
+  out.write("excess_3", signs.excess_3, "how much more the rival costs, 3 x 3 cells", "grey level");
+  out.write("excess_9", signs.excess_9, "how much more the rival costs, 9 x 9 cells", "grey level");
+  out.write("undecided", signs.undecided, "share of undecided cells, 17 x 17 cells", "");
+  out.write("bend_9", signs.bend_9, "mean bend, 9 x 9 cells", "grey level");
+  out.write("cost_9", signs.cost_9, "mean cost, 9 x 9 cells", "grey level");
+  out.write("cost_17", signs.cost_17, "mean cost, 17 x 17 cells", "grey level");
+}
+
 std::string selection_text(const pipeline::PreparedTile& tile) {
   std::string text = tile.heights ? "heights found by the coarse sweep: " + std::to_string(tile.heights->z_low) +
                                         " to " + std::to_string(tile.heights->z_high) + " m\n"
@@ -93,6 +107,8 @@ int dump_tile(const SweepOptions& options) {
   sweep::Heights heights = sweep::distinct_heights(problem, found, executor);
   const Array2d<float> matched_height_m = heights.height_m;
   sweep::drop_speckles(problem, heights);
+  const sweep::SigmaSigns signs = sweep::sigma_signs(problem, matches, heights.height_m);
+  heights.sigma_m = sweep::height_sigma(heights.height_m, signs, problem.dz_m);
   sweep::SweepResult result;
   result.filled = sweep::fill_hidden_cells(problem, executor, heights);
   result.height_m = heights.height_m;
@@ -124,12 +140,7 @@ int dump_tile(const SweepOptions& options) {
   out.write("filled", result.filled, "1 where the height is that of the surroundings", "");
   out.write("height", heights.height_m, "surface height", "metre", true);
   out.write("sigma", heights.sigma_m, "standard deviation of the height", "metre");
-  const Array2d<double> per_block = sweep::height_per_pixel(problem, matched_height_m);
-  Array2d<float> per_pixel(heights.height_m.width(), heights.height_m.height());
-  for (int y = 0; y < per_pixel.height(); ++y)
-    for (int x = 0; x < per_pixel.width(); ++x)
-      per_pixel(x, y) = static_cast<float>(per_block(x / sweep::kBlockCells, y / sweep::kBlockCells));
-  out.write("height_per_pixel", per_pixel, "height error of one pixel", "metre");
+  write_signs(signs, out);
   out.write("color", result.color, "orthophoto", "");
   out.write("color_view",
             converted<std::uint8_t>(result.color_view, [](std::int8_t v) { return static_cast<std::uint8_t>(v + 1); }),
