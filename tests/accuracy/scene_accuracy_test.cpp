@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "accuracy/expectations.h"
+#include "accuracy/sigma_bars.h"
 #include "export/mosaic.h"
 #include "pipeline/session.h"
 #include "pipeline/tbb_executor.h"
@@ -54,6 +55,17 @@ void add_building_edges(const report::HeightDifferences& cells, const report::Cl
   out["edge_displacement_gsd"] = std::abs(edges.steps.median_m) / gsd_m;
 }
 
+void add_sigma(const raster::Raster<float>& confidence, const report::HeightDifferences& cells,
+               const report::ClassMap& classes, std::map<std::string, double>& out) {
+  const Array2d<float> sigma =
+      report::sampled_on_grid(confidence, cells.grid, cells.truth.width(), cells.truth.height());
+  report::SigmaQuality quality = report::sigma_quality(cells.dz, sigma, static_cast<std::int64_t>(cells.dz.size()), 1);
+  quality.classes = report::coverage_by_class(cells.dz, sigma, classes);
+  out["sigma_within_68"] = quality.overall.within_68;
+  out["sigma_within_95"] = quality.overall.within_95;
+  out.merge(sigma_misses(quality));
+}
+
 // All figures a row of expected.csv may name, of the flight in folder / "flight" mapped with a preset.
 std::map<std::string, double> figures(const scene::Simulation& flight, const std::string& preset,
                                       const fs::path& folder) {
@@ -71,6 +83,7 @@ std::map<std::string, double> figures(const scene::Simulation& flight, const std
   const tiles::TileStore store = pipeline::open_store(paths, summary.settings);
   const Box2d extent = exports::known_extent(store);
   exports::write_mosaic(store, "dem", extent, paths.mosaic("dsm"));
+  exports::write_mosaic(store, "confidence", extent, paths.mosaic("confidence"));
   exports::write_mosaic(store, "color", extent, paths.mosaic("ortho"));
 
   const fs::path truth = folder / "flight" / "truth";
@@ -99,6 +112,7 @@ std::map<std::string, double> figures(const scene::Simulation& flight, const std
     out[name + "_within_2_gsd"] = one.errors.within_of_all[1];
   }
   add_building_edges(cells, classes, flight.gsd_m, out);
+  add_sigma(raster::read_float_raster(paths.mosaic("confidence")), cells, classes, out);
   return out;
 }
 
