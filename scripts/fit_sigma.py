@@ -185,7 +185,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "skysweep")
     arguments.add_argument("--work", type=pathlib.Path)
-    arguments.add_argument("--steps", type=int, default=2500)
+    arguments.add_argument("--steps", type=int, default=1200)
     arguments.add_argument("--test", nargs="*", default=TESTS)
     arguments.add_argument("--parameters", type=float, nargs=12, help="show what these cover, and fit nothing")
     options = arguments.parse_args()

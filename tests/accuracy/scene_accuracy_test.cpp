@@ -18,6 +18,8 @@
 #include "report/evaluation.h"
 #include "report/height_accuracy.h"
 #include "report/registration.h"
+#include "report/sigma_quality.h"
+#include "report/surface_sampler.h"
 #include "scene/scene_file.h"
 #include "scene/simulate.h"
 
