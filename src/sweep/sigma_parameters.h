@@ -11,18 +11,18 @@ namespace skysweep::sweep {
 struct SigmaOfDoubtless {
   double level, step, offset, excess, bend, cost;
 };
-inline constexpr SigmaOfDoubtless kSigmaOfDoubtless = {-0.68, 0.44, 0.19, -0.14, -0.35, -0.8};
+inline constexpr SigmaOfDoubtless kSigmaOfDoubtless = {-0.512, 0.427, 0.165, -0.348, -0.454, -0.753};
 
 // Below which ln excess they do not.
 struct Doubt {
   double level, cost, undecided;
 };
-inline constexpr Doubt kDoubt = {0.6, 2.8, 0.85};
+inline constexpr Doubt kDoubt = {0.863, 2.774, 1.046};
 
 // ln (sigma / step) where they do not.
 struct SigmaOfDoubtful {
   double level, cost, undecided;
 };
-inline constexpr SigmaOfDoubtful kSigmaOfDoubtful = {-0.7, 0.6, -0.5};
+inline constexpr SigmaOfDoubtful kSigmaOfDoubtful = {-1.008, 0.772, 0.41};
 
 }  // namespace skysweep::sweep
