@@ -28,6 +28,7 @@ TESTS = ["small_town:balanced", "infrastructure:balanced"]
 SIGNS = ["height_per_pixel", "step_5", "step_17", "offset", "excess_3", "excess_9", "undecided", "bend_9", "cost_9",
          "cost_17"]
 CLASSES = {1: "ground", 2: "roof", 4: "tree"}
+BEST = 0.07  # kBestPixels of sigma_parameters.h
 FEWEST_CELLS = 150  # of a class that is judged alone
 TRAINED_CELLS = 12000  # of each scene, every n-th
 SEEDS = (1, 2)
@@ -124,7 +125,7 @@ def every_nth(cells, count):
 
 
 def sigma(cells, p):
-    sure = p[0:6] @ cells["doubtless"]
+    sure = np.maximum(np.log(BEST), p[0:6] @ cells["doubtless"])
     is_doubtful = cells["excess"] < p[6:9] @ cells["doubtful"]
     doubtful = np.maximum(sure, p[9:12] @ cells["doubtful"] + cells["step"])
     return np.exp(np.where(is_doubtful, doubtful, sure))

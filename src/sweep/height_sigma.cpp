@@ -43,7 +43,7 @@ double log_sigma_of_doubtful(const Signs& s) {
 // In units of the height that is worth a pixel.
 double sigma_of(const Signs& s) {
   const double sure = log_sigma_of_doubtless(s);
-  return std::exp(is_doubtful(s) ? std::max(sure, log_sigma_of_doubtful(s)) : sure);
+  return std::max(kBestPixels, std::exp(is_doubtful(s) ? std::max(sure, log_sigma_of_doubtful(s)) : sure));
 }
 
 }  // namespace

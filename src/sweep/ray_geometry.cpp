@@ -31,7 +31,9 @@ double height_per_pixel_at(const SweepProblem& problem, Vec3d place) {
     if (!(to_view.z > 0)) continue;
     const double east = to_view.x / to_view.z, north = to_view.y / to_view.z;
     n += 1;
-    gsd += view.camera.gsd(view.camera.depth(place));
+    // What a pixel covers of level ground, along the direction in which heights move it.
+    const double depth = view.camera.depth(place);
+    gsd += view.camera.gsd(depth) * depth / to_view.z;
     x += east, y += north, squares += east * east + north * north;
   }
   if (n < 2) return kNaN;

@@ -13,6 +13,10 @@ struct SigmaOfDoubtless {
 };
 inline constexpr SigmaOfDoubtless kSigmaOfDoubtless = {-0.512, 0.427, 0.165, -0.348, -0.454, -0.753};
 
+// No height is better than so many pixels, not fitted: on level ground without noise the signs promise more than the
+// fit between planes holds (tests/hard, HardBaseline).
+inline constexpr double kBestPixels = 0.07;
+
 // Below which ln excess they do not.
 struct Doubt {
   double level, cost, undecided;

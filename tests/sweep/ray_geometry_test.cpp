@@ -43,6 +43,19 @@ TEST(RayGeometry, more_views_and_longer_baselines_measure_it_better) {
   EXPECT_NEAR(at_ground({{-4, 0}, {0, 0}, {4, 0}}), at_ground({{-4, 0}, {4, 0}}), 1e-3) << "the middle adds nothing";
 }
 
+TEST(RayGeometry, a_pixel_that_looks_aslant_covers_more_ground) {
+  // Two views from 45 degrees on both sides, with the place in their middle: slope distance sqrt 2 H, cut aslant.
+  SweepProblem problem = looked_at_from({});
+  for (const double side : {-1.0, 1.0}) {
+    const camera::CameraModel model{320, 240, kFocalPx, kFocalPx, 160, 120, {}};
+    const camera::Pose pose{camera::rotation_from_yaw_pitch_roll(-90 * side, -45, 0),
+                            {side * kFlyingHeight, 0, kFlyingHeight}};
+    problem.views.push_back({nullptr, camera::Camera(model, pose), 0});
+  }
+  const double expected = 2 * kGsd / std::sqrt(2);
+  EXPECT_NEAR(height_per_pixel(problem, Array2d<float>(kBlockCells, kBlockCells, 0))(0, 0), expected, 0.01 * expected);
+}
+
 TEST(RayGeometry, nothing_is_measured_by_one_view_one_place_or_where_nothing_is_known) {
   EXPECT_TRUE(std::isnan(at_ground({{0, 0}})));
   EXPECT_TRUE(std::isnan(at_ground({{0, 0}, {0, 0}})));
