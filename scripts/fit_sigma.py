@@ -34,7 +34,7 @@ TRAINED_CELLS = 12000  # of each scene, every n-th
 SEEDS = (1, 2)
 
 # Where the search begins, in the order of sigma_parameters.h: level, step, offset, excess, bend, cost | level, cost, undecided | level, cost, undecided.
-START = [-0.558, 0.429, 0.163, -0.402, -0.458, -0.711, 0.76, 3.126, 0.982, -1, 0.696, 0.387]
+START = [-0.512, 0.427, 0.165, -0.348, -0.454, -0.753, 0.863, 2.774, 1.046, -1.008, 0.772, 0.41]
 STEP = [0.1, 0.05, 0.03, 0.1, 0.08, 0.15, 0.2, 0.5, 0.4, 0.15, 0.3, 0.5]
 
 # Where coverage should lie, of one sigma and of 1.96: overall, and in each part; narrower than the bars of the tests.

@@ -11,7 +11,7 @@ namespace skysweep::sweep {
 struct SigmaOfDoubtless {
   double level, step, offset, excess, bend, cost;
 };
-inline constexpr SigmaOfDoubtless kSigmaOfDoubtless = {-0.512, 0.427, 0.165, -0.348, -0.454, -0.753};
+inline constexpr SigmaOfDoubtless kSigmaOfDoubtless = {-0.513, 0.447, 0.168, -0.346, -0.478, -0.794};
 
 // No height is better than so many pixels, not fitted: on level ground without noise the signs promise more than the
 // fit between planes holds (tests/hard, HardBaseline).
@@ -21,12 +21,12 @@ inline constexpr double kBestPixels = 0.07;
 struct Doubt {
   double level, cost, undecided;
 };
-inline constexpr Doubt kDoubt = {0.863, 2.774, 1.046};
+inline constexpr Doubt kDoubt = {0.866, 2.987, 0.823};
 
 // ln (sigma / step) where they do not.
 struct SigmaOfDoubtful {
   double level, cost, undecided;
 };
-inline constexpr SigmaOfDoubtful kSigmaOfDoubtful = {-1.008, 0.772, 0.41};
+inline constexpr SigmaOfDoubtful kSigmaOfDoubtful = {-1.008, 0.768, 0.41};
 
 }  // namespace skysweep::sweep
