@@ -15,7 +15,7 @@ using MeanColor = std::array<float, 3>;  // red, green, blue, 0 to 255
 double color_difference(const MeanColor& a, const MeanColor& b);
 
 struct PointColors {
-  int seen_by = 0;  // views that see the place
+  int seen_by = 0;      // views that see the place
   int hidden_from = 0;  // views whose photograph covers it and that the surface hides it from
   MeanColor median{};   // of those that see it, channel by channel; meaningless when none does
   double spread = 0;    // mean difference to the median, each view's no larger than `largest_difference`

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sweep/hidden_cells.h"
@@ -17,15 +18,20 @@ namespace {
 
 constexpr double kStepPlanes = 3;  // between neighbouring cells: more is a step
 constexpr int kMostSurfaces = 4;   // that a cell may choose from
-// Colours that differ by more than this are of different things, and how far apart they are says nothing, grey levels.
-constexpr double kLargestDifference = 8;
+// All differences of colour are counted in units of the one that is usual where the surface is known. Beyond this,
+// colours are of different things, and how far apart they are says nothing.
+constexpr double kLargestDifference = 5;
 // Two views agree by chance too easily: what fewer see costs as much as what none sees.
 constexpr int kFewestWitnesses = 3;
-constexpr double kFewWitnessesPenalty = 3;  // divided by the number of views that see the place, grey levels
-// Neighbours whose colours differ by so many grey levels belong together half as much, and never less than a share.
-constexpr double kContrast = 4, kLeastWeight = 0.2;
+constexpr double kFewWitnessesPenalty = 2;  // divided by the number of views that see the place
+// Neighbours whose colours differ by so much belong together half as much, and never less than a share.
+constexpr double kContrast = 2.5, kLeastWeight = 0.2;
 constexpr double kDiagonalWeight = 0.7;
 constexpr int kRoundsOfChoice = 4;
+// Where so large a share of the cells within so many columns and rows lies at steps, as in the crowns of trees, no step
+// is an edge.
+constexpr double kRubbleShare = 0.8;
+constexpr int kRubbleReach = 8;
 
 struct Direction {
   int x, y;
@@ -36,7 +42,7 @@ constexpr double kAllWeights = 4 + 4 * kDiagonalWeight;
 // A surface that may be the one in a cell: its height there, and what speaks for it.
 struct Surface {
   float z = 0, sigma = 0;
-  float cost = 0;  // grey levels
+  float cost = 0;  // in units of the usual difference
   MeanColor color{};
   int seen_by = 0;
 };
@@ -44,7 +50,7 @@ struct Surface {
 struct EdgeCell {
   int column = 0, row = 0;
   int count = 0, chosen = 0;
-  std::array<Surface, kMostSurfaces> of;
+  std::array<Surface, kMostSurfaces> of{};
 
   bool add(float z, float sigma, double alike_m) {
     if (count == kMostSurfaces) return false;
@@ -56,11 +62,58 @@ struct EdgeCell {
   const Surface& surface() const { return of[chosen]; }
 };
 
+// All cells at most `reach` columns and rows from a marked one.
+Array2d<std::uint8_t> around(const Array2d<std::uint8_t>& marked, int reach) {
+  const int width = marked.width(), height = marked.height();
+  Array2d<std::uint8_t> across(width, height, 0), out(width, height, 0);
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column)
+      if (marked(column, row) != 0)
+        std::fill(across.row(row) + std::max(0, column - reach), across.row(row) + std::min(width, column + reach + 1),
+                  std::uint8_t{1});
+  for (int row = 0; row < height; ++row)
+    for (int y = std::max(0, row - reach); y < std::min(height, row + reach + 1); ++y)
+      for (int column = 0; column < width; ++column) out(column, y) |= across(column, row);
+  return out;
+}
+
+// Sums over the columns left of and the rows above each corner of the cells.
+Array2d<int> summed(const Array2d<std::uint8_t>& marked) {
+  Array2d<int> sums(marked.width() + 1, marked.height() + 1, 0);
+  for (int row = 0; row < marked.height(); ++row)
+    for (int column = 0; column < marked.width(); ++column)
+      sums(column + 1, row + 1) =
+          sums(column, row + 1) + sums(column + 1, row) - sums(column, row) + marked(column, row);
+  return sums;
+}
+
+// Takes the marks off where there is hardly anything but steps.
+void drop_rubble(const Array2d<std::uint8_t>& at_steps, Array2d<std::uint8_t>& marked) {
+  const int width = at_steps.width(), height = at_steps.height();
+  const Array2d<int> sums = summed(at_steps);
+  Array2d<std::uint8_t> rubble(width, height, 0);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      if (at_steps(column, row) == 0) continue;
+      const int left = std::max(0, column - kRubbleReach), right = std::min(width, column + kRubbleReach + 1);
+      const int top = std::max(0, row - kRubbleReach), bottom = std::min(height, row + kRubbleReach + 1);
+      const int steps = sums(right, bottom) - sums(left, bottom) - sums(right, top) + sums(left, top);
+      rubble(column, row) = steps > kRubbleShare * (right - left) * (bottom - top);
+    }
+  }
+  const Array2d<std::uint8_t> all = around(rubble, kRubbleReach);
+  for (std::size_t i = 0; i < marked.size(); ++i) marked.data()[i] &= !all.data()[i];
+}
+
 // One pass over the steps of a surface.
 class EdgePass {
  public:
-  EdgePass(const SweepProblem& problem, Executor& executor, Heights& heights)
-      : problem_(problem), executor_(executor), heights_(heights),
+  // `usual_difference`: of the colours in which views show one place, grey levels.
+  EdgePass(const SweepProblem& problem, double usual_difference, Executor& executor, Heights& heights)
+      : problem_(problem),
+        usual_difference_(usual_difference),
+        executor_(executor),
+        heights_(heights),
         alike_m_(0.5 * kStepPlanes * problem.dz_m),
         cell_at_(problem.grid.width, problem.grid.height, -1) {}
 
@@ -79,37 +132,26 @@ class EdgePass {
     return z.contains(x, y) && std::abs(z(column, row) - z(x, y)) > kStepPlanes * problem_.dz_m;
   }
 
-  Array2d<std::uint8_t> around(const Array2d<std::uint8_t>& marked, int reach) const {
-    const int width = marked.width(), height = marked.height();
-    Array2d<std::uint8_t> across(width, height, 0), out(width, height, 0);
-    for (int row = 0; row < height; ++row)
-      for (int column = 0; column < width; ++column)
-        if (marked(column, row))
-          std::fill(across.row(row) + std::max(0, column - reach), across.row(row) + std::min(width, column + reach + 1), 1);
-    for (int row = 0; row < height; ++row)
-      for (int y = std::max(0, row - reach); y < std::min(height, row + reach + 1); ++y)
-        for (int column = 0; column < width; ++column) out(column, y) |= across(column, row);
-    return out;
-  }
-
   Array2d<std::uint8_t> near_steps(const Array2d<std::uint8_t>& active) const {
     const int width = active.width(), height = active.height();
-    Array2d<std::uint8_t> sides(width, height, 0);
+    Array2d<std::uint8_t> at_steps(width, height, 0);
     for (int row = 0; row < height; ++row) {
       for (int column = 0; column < width; ++column) {
-        if (is_step(column, row, column + 1, row)) sides(column, row) = sides(column + 1, row) = 1;
-        if (is_step(column, row, column, row + 1)) sides(column, row) = sides(column, row + 1) = 1;
+        if (is_step(column, row, column + 1, row)) at_steps(column, row) = at_steps(column + 1, row) = 1;
+        if (is_step(column, row, column, row + 1)) at_steps(column, row) = at_steps(column, row + 1) = 1;
       }
     }
-    Array2d<std::uint8_t> near = around(sides, problem_.options.edge_reach_cells);
+    Array2d<std::uint8_t> near = around(at_steps, problem_.options.edge_reach_cells);
     for (std::size_t i = 0; i < near.size(); ++i) near.data()[i] &= active.data()[i];
+    drop_rubble(at_steps, near);
     return near;
   }
 
   // The heights that the surfaces around have in a cell: its own first, then from afar, where edges disturb less.
   EdgeCell surfaces_around(int column, int row) const {
     const Array2d<float>& z = heights_.height_m;
-    EdgeCell cell{column, row};
+    EdgeCell cell;
+    cell.column = column, cell.row = row;
     if (!std::isnan(z(column, row))) cell.add(z(column, row), heights_.sigma_m(column, row), alike_m_);
     for (int distance = problem_.options.edge_reach_cells + 1; distance >= 1; --distance) {
       for (const Direction d : kDirections) {
@@ -118,7 +160,7 @@ class EdgePass {
         float height = z(x, y);
         const int beyond_x = x + 2 * d.x, beyond_y = y + 2 * d.y;
         if (z.contains(beyond_x, beyond_y)) {
-          const float rise = (height - z(beyond_x, beyond_y)) / 2;  // a cell
+          const float rise = (height - z(beyond_x, beyond_y)) / 2;                                   // a cell
           if (std::abs(rise) < problem_.grid.cell_m) height += static_cast<float>(distance) * rise;  // not of NaN
         }
         cell.add(height, heights_.sigma_m(x, y), alike_m_);
@@ -140,7 +182,8 @@ class EdgePass {
       for (const Direction d : kDirections) {
         const int column = cells_[i].column + d.x, row = cells_[i].row + d.y;
         if (!cell_at_.contains(column, row) || cell_at_(column, row) >= 0) continue;
-        EdgeCell cell{column, row};
+        EdgeCell cell;
+        cell.column = column, cell.row = row;
         if (std::isnan(heights_.height_m(column, row))) continue;
         cell.add(heights_.height_m(column, row), heights_.sigma_m(column, row), alike_m_);
         put(cell);
@@ -163,13 +206,14 @@ class EdgePass {
         EdgeCell& cell = cells_[i];
         for (int k = 0; k < cell.count; ++k) {
           Surface& s = cell.of[k];
-          const PointColors seen = point_colors(problem_, visibility, cell.column, cell.row, s.z, kLargestDifference);
+          const PointColors seen =
+              point_colors(problem_, visibility, cell.column, cell.row, s.z, kLargestDifference * usual_difference_);
           s.color = seen.median;
           s.seen_by = seen.seen_by;
           const int n = seen.seen_by;
           s.cost = static_cast<float>(hidden_cost);
           if (n < kFewestWitnesses) continue;
-          const double own = seen.spread * n / (n - 1) + kFewWitnessesPenalty / n;
+          const double own = seen.spread / usual_difference_ * n / (n - 1) + kFewWitnessesPenalty / n;
           s.cost = static_cast<float>((n * own + seen.hidden_from * hidden_cost) / (n + seen.hidden_from));
         }
       }
@@ -187,7 +231,7 @@ class EdgePass {
       if (!(std::abs(z - s.z) > alike_m_ + problem_.grid.cell_m)) continue;  // of NaN, too
       double weight = d.x != 0 && d.y != 0 ? kDiagonalWeight : 1;
       if (other) {
-        const double contrast = color_difference(other->surface().color, s.color) / kContrast;
+        const double contrast = color_difference(other->surface().color, s.color) / (kContrast * usual_difference_);
         weight *= std::max(kLeastWeight, 1 / (1 + contrast * contrast));
       }
       sum += weight;
@@ -242,6 +286,7 @@ class EdgePass {
   }
 
   const SweepProblem& problem_;
+  double usual_difference_;
   Executor& executor_;
   Heights& heights_;
   double alike_m_;  // heights that differ by less are of the same surface
@@ -249,11 +294,47 @@ class EdgePass {
   std::vector<EdgeCell> cells_;
 };
 
+// The median difference between the colours in which views show a place, over places whose height is known and far from
+// steps: noise, exposure, texture and poses together. Nothing where too few are.
+std::optional<double> usual_difference(const SweepProblem& problem, const Heights& heights, Executor& executor) {
+  constexpr int kEvery = 8, kFewestPlaces = 32;
+  constexpr double kAnyDifference = 255;
+  const Array2d<float>& z = heights.height_m;
+  const SurfaceVisibility visibility(problem.grid, z, kOcclusionTolerancePlanes * problem.dz_m);
+  const auto level = [&](int column, int row) {
+    for (int y = row - 1; y <= row + 1; ++y)
+      for (int x = column - 1; x <= column + 1; ++x)
+        if (!(std::abs(z(x, y) - z(column, row)) <= kStepPlanes * problem.dz_m)) return false;  // of NaN, too
+    return true;
+  };
+  const int rows = std::max(0, (problem.grid.height - 2) / kEvery);
+  std::vector<std::vector<double>> of_row(rows);
+  executor.parallel_for(rows, [&](int i) {
+    const int row = 1 + i * kEvery;
+    for (int column = 1; column + 1 < problem.grid.width; column += kEvery) {
+      if (!level(column, row)) continue;
+      const PointColors seen = point_colors(problem, visibility, column, row, z(column, row), kAnyDifference);
+      if (seen.seen_by >= kFewestWitnesses) of_row[i].push_back(seen.spread * seen.seen_by / (seen.seen_by - 1));
+    }
+  });
+  std::vector<double> all;
+  for (const std::vector<double>& row : of_row) all.insert(all.end(), row.begin(), row.end());
+  if (all.size() < kFewestPlaces) return std::nullopt;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  constexpr double kLeast = 1.5;  // pixels on an edge are mixed, however little noise there is
+  return std::max(kLeast, *middle);
+}
+
 }  // namespace
 
 void settle_edges(const SweepProblem& problem, Executor& executor, Heights& heights) {
+  if (problem.options.edge_passes == 0) return;
+  const std::optional<double> usual = usual_difference(problem, heights, executor);
+  if (!usual) return;
   Array2d<std::uint8_t> active(problem.grid.width, problem.grid.height, 1);
-  for (int pass = 0; pass < problem.options.edge_passes; ++pass) EdgePass(problem, executor, heights).run(active);
+  for (int pass = 0; pass < problem.options.edge_passes; ++pass)
+    EdgePass(problem, *usual, executor, heights).run(active);
 }
 
 }  // namespace skysweep::sweep

@@ -20,7 +20,8 @@ std::optional<double> fitted_height(const Heights& heights, const Array2d<std::u
     for (int dx = -kRadius; dx <= kRadius; ++dx) {
       const int x = column + dx, y = row + dy;
       if (!heights.height_m.contains(x, y) || excluded(x, y) || std::isnan(heights.height_m(x, y))) continue;
-      const double above = heights.height_m(x, y) - z, distance_m = std::max(std::abs(dx), std::abs(dy)) * surface.cell_m;
+      const double above = heights.height_m(x, y) - z,
+                   distance_m = std::max(std::abs(dx), std::abs(dy)) * surface.cell_m;
       if (std::abs(above) > surface.scatter_m + kSteepestSurface * distance_m) continue;
       const double sigma = heights.sigma_m(x, y);
       const double w = 1 / (sigma * sigma + surface.scatter_m * surface.scatter_m);
