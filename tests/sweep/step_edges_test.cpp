@@ -132,7 +132,7 @@ TEST(StepEdges, a_roof_that_slopes_goes_on_sloping_to_its_edge) {
       if (heights.height_m(column, row) > 1) heights.height_m(column, row) = 4 + 0.05f * static_cast<float>(row - 32);
   const Heights before = heights;
   SweepProblem problem = world.problem;
-  problem.options.edge_passes = 1;
+  problem.options.edge_passes = 1, problem.options.edge_reach_cells = 1;
   problem.options.edge_hidden_cost = 40;  // what nothing hides is best: the roof grows by a cell or two on every side
   SerialExecutor serial;
   settle_edges(problem, serial, heights);
