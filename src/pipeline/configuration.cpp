@@ -114,6 +114,10 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("max_cost", o.max_cost);
   key("max_cost_to_mean", o.max_cost_to_mean);
   key("speckle_cells", o.speckle_cells);
+  key("edge_passes", o.edge_passes);
+  key("edge_reach_cells", o.edge_reach_cells);
+  key("edge_penalty", o.edge_penalty);
+  key("edge_hidden_cost", o.edge_hidden_cost);
   key("fill", o.fill);
   key("close_gap_cells", o.close_gap_cells);
   key("plane_step_px", o.plane_step_px);

@@ -12,6 +12,7 @@
 #include "sweep/orthophoto.h"
 #include "sweep/photometric_evidence.h"
 #include "sweep/speckles.h"
+#include "sweep/step_edges.h"
 
 namespace skysweep::sweep {
 
@@ -67,6 +68,7 @@ SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& 
   Heights heights = distinct_heights(problem, found, executor);
   drop_speckles(problem, heights);
   set_sigma(problem, found.matches, heights);
+  settle_edges(problem, executor, heights);
   result.filled = fill_hidden_cells(problem, executor, heights);
   result.height_m = std::move(heights.height_m);
   result.sigma_m = std::move(heights.sigma_m);

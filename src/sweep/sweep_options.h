@@ -102,6 +102,20 @@ struct SweepOptions {
   // (sweep/speckles.h): more removes more false matches, and small things with them. 0: all are believed.
   int speckle_cells = 0;
 
+  // How often cells near steps are asked again which of the surfaces around them the views see there
+  // (sweep/step_edges.h); 0: edges stay where the search put them.
+  int edge_passes = 3;
+
+  // So near to a step or a gap, in columns and rows.
+  int edge_reach_cells = 2;
+
+  // What a cell pays for lying on a surface that none of its neighbours lies on, in units of the difference of colour
+  // that is usual between views of one place of the tile: more makes edges straighter and takes small corners.
+  double edge_penalty = 10;
+
+  // What a view counts that the surface hides from the cell, in the same units: neither for nor against.
+  double edge_hidden_cost = 2.5;
+
   // Cells that fewer than min_views views can see past the surface around them get the height of the lower side of
   // that surface, marked as such in the mask; false leaves them empty.
   bool fill = true;

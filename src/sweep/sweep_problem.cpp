@@ -37,6 +37,10 @@ std::optional<std::string> SweepOptions::problem() const {
   if (!(max_cost > 0)) return "max_cost must be positive (grey levels)";
   if (!(max_cost_to_mean > 0 && max_cost_to_mean <= 1)) return "max_cost_to_mean must lie above 0 and not above 1";
   if (speckle_cells < 0 || speckle_cells > 65536) return "speckle_cells must lie between 0 (off) and 65536";
+  if (edge_passes < 0 || edge_passes > 8) return "edge_passes must lie between 0 (off) and 8";
+  if (edge_reach_cells < 1 || edge_reach_cells > 16) return "edge_reach_cells must lie between 1 and 16";
+  if (!(edge_penalty >= 0 && edge_penalty <= 255)) return "edge_penalty must lie between 0 and 255";
+  if (!(edge_hidden_cost >= 0 && edge_hidden_cost <= 255)) return "edge_hidden_cost must lie between 0 and 255";
   if (close_gap_cells < 0 || close_gap_cells > 65536) return "close_gap_cells must lie between 0 (off) and 65536";
   if (!(plane_step_px > 0.01 && plane_step_px <= 4)) return "plane_step_px must lie between 0.01 and 4";
   return std::nullopt;

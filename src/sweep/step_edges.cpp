@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/step_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "sweep/hidden_cells.h"
+#include "sweep/point_colors.h"
+#include "sweep/surface_fit.h"
+#include "sweep/visibility.h"
+
+namespace skysweep::sweep {
+namespace {
+
+constexpr double kStepPlanes = 3;  // between neighbouring cells: more is a step
+constexpr int kMostSurfaces = 4;   // that a cell may choose from
+// All differences of colour are counted in units of the one that is usual where the surface is known. Beyond this,
+// colours are of different things, and how far apart they are says nothing.
+constexpr double kLargestDifference = 5;
+// Two views agree by chance too easily: what fewer see costs as much as what none sees.
+constexpr int kFewestWitnesses = 3;
+constexpr double kFewWitnessesPenalty = 2;  // divided by the number of views that see the place
+// Neighbours whose colours differ by so much belong together half as much, and never less than a share.
+constexpr double kContrast = 2.5, kLeastWeight = 0.2;
+constexpr double kDiagonalWeight = 0.7;
+constexpr int kRoundsOfChoice = 4;
+// Where so large a share of the cells within so many columns and rows lies at steps, as in the crowns of trees, no step
+// is an edge.
+constexpr double kRubbleShare = 0.8;
+constexpr int kRubbleReach = 8;
+
+struct Direction {
+  int x, y;
+};
+constexpr std::array<Direction, 8> kDirections{{{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+constexpr double kAllWeights = 4 + 4 * kDiagonalWeight;
+
+// A surface that may be the one in a cell: its height there, and what speaks for it.
+struct Surface {
+  float z = 0, sigma = 0;
+  float cost = 0;  // in units of the usual difference
+  MeanColor color{};
+  int seen_by = 0;
+};
+
+struct EdgeCell {
+  int column = 0, row = 0;
+  int count = 0, chosen = 0;
+  std::array<Surface, kMostSurfaces> of{};
+
+  bool add(float z, float sigma, double alike_m) {
+    if (count == kMostSurfaces) return false;
+    for (int i = 0; i < count; ++i)
+      if (std::abs(of[i].z - z) <= alike_m) return false;
+    of[count++] = {z, sigma};
+    return true;
+  }
+  const Surface& surface() const { return of[chosen]; }
+};
+
+// All cells at most `reach` columns and rows from a marked one.
+Array2d<std::uint8_t> around(const Array2d<std::uint8_t>& marked, int reach) {
+  const int width = marked.width(), height = marked.height();
+  Array2d<std::uint8_t> across(width, height, 0), out(width, height, 0);
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column)
+      if (marked(column, row) != 0)
+        std::fill(across.row(row) + std::max(0, column - reach), across.row(row) + std::min(width, column + reach + 1),
+                  std::uint8_t{1});
+  for (int row = 0; row < height; ++row)
+    for (int y = std::max(0, row - reach); y < std::min(height, row + reach + 1); ++y)
+      for (int column = 0; column < width; ++column) out(column, y) |= across(column, row);
+  return out;
+}
+
+// Sums over the columns left of and the rows above each corner of the cells.
+Array2d<int> summed(const Array2d<std::uint8_t>& marked) {
+  Array2d<int> sums(marked.width() + 1, marked.height() + 1, 0);
+  for (int row = 0; row < marked.height(); ++row)
+    for (int column = 0; column < marked.width(); ++column)
+      sums(column + 1, row + 1) =
+          sums(column, row + 1) + sums(column + 1, row) - sums(column, row) + marked(column, row);
+  return sums;
+}
+
+// Takes the marks off where there is hardly anything but steps.
+void drop_rubble(const Array2d<std::uint8_t>& at_steps, Array2d<std::uint8_t>& marked) {
+  const int width = at_steps.width(), height = at_steps.height();
+  const Array2d<int> sums = summed(at_steps);
+  Array2d<std::uint8_t> rubble(width, height, 0);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      if (at_steps(column, row) == 0) continue;
+      const int left = std::max(0, column - kRubbleReach), right = std::min(width, column + kRubbleReach + 1);
+      const int top = std::max(0, row - kRubbleReach), bottom = std::min(height, row + kRubbleReach + 1);
+      const int steps = sums(right, bottom) - sums(left, bottom) - sums(right, top) + sums(left, top);
+      rubble(column, row) = steps > kRubbleShare * (right - left) * (bottom - top);
+    }
+  }
+  const Array2d<std::uint8_t> all = around(rubble, kRubbleReach);
+  for (std::size_t i = 0; i < marked.size(); ++i) marked.data()[i] &= !all.data()[i];
+}
+
+// One pass over the steps of a surface.
+class EdgePass {
+ public:
+  // `usual_difference`: of the colours in which views show one place, grey levels.
+  EdgePass(const SweepProblem& problem, double usual_difference, Executor& executor, Heights& heights)
+      : problem_(problem),
+        usual_difference_(usual_difference),
+        executor_(executor),
+        heights_(heights),
+        alike_m_(0.5 * kStepPlanes * problem.dz_m),
+        cell_at_(problem.grid.width, problem.grid.height, -1) {}
+
+  // `active`: the cells to look at; afterwards those around which something changed.
+  void run(Array2d<std::uint8_t>& active) {
+    gather(near_steps(active));
+    judge();
+    for (int round = 0; round < kRoundsOfChoice; ++round)
+      for (int parity = 0; parity < 4; ++parity) choose(parity);
+    active = settle();
+  }
+
+ private:
+  bool is_step(int column, int row, int x, int y) const {
+    const Array2d<float>& z = heights_.height_m;
+    return z.contains(x, y) && std::abs(z(column, row) - z(x, y)) > kStepPlanes * problem_.dz_m;
+  }
+
+  Array2d<std::uint8_t> near_steps(const Array2d<std::uint8_t>& active) const {
+    const int width = active.width(), height = active.height();
+    Array2d<std::uint8_t> at_steps(width, height, 0);
+    for (int row = 0; row < height; ++row) {
+      for (int column = 0; column < width; ++column) {
+        if (is_step(column, row, column + 1, row)) at_steps(column, row) = at_steps(column + 1, row) = 1;
+        if (is_step(column, row, column, row + 1)) at_steps(column, row) = at_steps(column, row + 1) = 1;
+      }
+    }
+    Array2d<std::uint8_t> near = around(at_steps, problem_.options.edge_reach_cells);
+    for (std::size_t i = 0; i < near.size(); ++i) near.data()[i] &= active.data()[i];
+    drop_rubble(at_steps, near);
+    return near;
+  }
+
+  // The heights that the surfaces around have in a cell: its own first, then from afar, where edges disturb less.
+  EdgeCell surfaces_around(int column, int row) const {
+    const Array2d<float>& z = heights_.height_m;
+    EdgeCell cell;
+    cell.column = column, cell.row = row;
+    if (!std::isnan(z(column, row))) cell.add(z(column, row), heights_.sigma_m(column, row), alike_m_);
+    for (int distance = problem_.options.edge_reach_cells + 1; distance >= 1; --distance) {
+      for (const Direction d : kDirections) {
+        const int x = column + distance * d.x, y = row + distance * d.y;
+        if (!z.contains(x, y) || std::isnan(z(x, y))) continue;
+        float height = z(x, y);
+        const int beyond_x = x + 2 * d.x, beyond_y = y + 2 * d.y;
+        if (z.contains(beyond_x, beyond_y)) {
+          const float rise = (height - z(beyond_x, beyond_y)) / 2;                                   // a cell
+          if (std::abs(rise) < problem_.grid.cell_m) height += static_cast<float>(distance) * rise;  // not of NaN
+        }
+        cell.add(height, heights_.sigma_m(x, y), alike_m_);
+      }
+    }
+    return cell;
+  }
+
+  void gather(const Array2d<std::uint8_t>& near) {
+    for (int row = 0; row < near.height(); ++row) {
+      for (int column = 0; column < near.width(); ++column) {
+        if (!near(column, row)) continue;
+        const EdgeCell cell = surfaces_around(column, row);
+        if (cell.count > 1 || (cell.count == 1 && std::isnan(heights_.height_m(column, row)))) put(cell);
+      }
+    }
+    // Their neighbours have nothing to choose, but their colours matter.
+    for (std::size_t i = 0, open = cells_.size(); i < open; ++i) {
+      for (const Direction d : kDirections) {
+        const int column = cells_[i].column + d.x, row = cells_[i].row + d.y;
+        if (!cell_at_.contains(column, row) || cell_at_(column, row) >= 0) continue;
+        EdgeCell cell;
+        cell.column = column, cell.row = row;
+        if (std::isnan(heights_.height_m(column, row))) continue;
+        cell.add(heights_.height_m(column, row), heights_.sigma_m(column, row), alike_m_);
+        put(cell);
+      }
+    }
+  }
+
+  void put(const EdgeCell& cell) {
+    cell_at_(cell.column, cell.row) = static_cast<int>(cells_.size());
+    cells_.push_back(cell);
+  }
+
+  void judge() {
+    const SurfaceVisibility visibility(problem_.grid, heights_.height_m, kOcclusionTolerancePlanes * problem_.dz_m);
+    const double hidden_cost = problem_.options.edge_hidden_cost;
+    constexpr int kTogether = 64;
+    const int count = static_cast<int>(cells_.size());
+    executor_.parallel_for((count + kTogether - 1) / kTogether, [&](int part) {
+      for (int i = part * kTogether; i < std::min(count, (part + 1) * kTogether); ++i) {
+        EdgeCell& cell = cells_[i];
+        for (int k = 0; k < cell.count; ++k) {
+          Surface& s = cell.of[k];
+          const PointColors seen =
+              point_colors(problem_, visibility, cell.column, cell.row, s.z, kLargestDifference * usual_difference_);
+          s.color = seen.median;
+          s.seen_by = seen.seen_by;
+          const int n = seen.seen_by;
+          s.cost = static_cast<float>(hidden_cost);
+          if (n < kFewestWitnesses) continue;
+          const double own = seen.spread / usual_difference_ * n / (n - 1) + kFewWitnessesPenalty / n;
+          s.cost = static_cast<float>((n * own + seen.hidden_from * hidden_cost) / (n + seen.hidden_from));
+        }
+      }
+    });
+  }
+
+  // What it costs a cell to be on a surface that its neighbours are not on.
+  double disagreement(const EdgeCell& cell, const Surface& s) const {
+    double sum = 0;
+    for (const Direction d : kDirections) {
+      const int x = cell.column + d.x, y = cell.row + d.y;
+      if (!cell_at_.contains(x, y)) continue;
+      const EdgeCell* other = cell_at_(x, y) >= 0 ? &cells_[cell_at_(x, y)] : nullptr;
+      const float z = other ? other->surface().z : heights_.height_m(x, y);
+      if (!(std::abs(z - s.z) > alike_m_ + problem_.grid.cell_m)) continue;  // of NaN, too
+      double weight = d.x != 0 && d.y != 0 ? kDiagonalWeight : 1;
+      if (other) {
+        const double contrast = color_difference(other->surface().color, s.color) / (kContrast * usual_difference_);
+        weight *= std::max(kLeastWeight, 1 / (1 + contrast * contrast));
+      }
+      sum += weight;
+    }
+    return sum / kAllWeights;
+  }
+
+  // All cells of one of four colours of a chequerboard: none is another's neighbour.
+  void choose(int parity) {
+    executor_.parallel_for(problem_.grid.height, [&](int row) {
+      if ((row & 1) != (parity >> 1)) return;
+      for (int column = parity & 1; column < problem_.grid.width; column += 2) {
+        if (cell_at_(column, row) < 0) continue;
+        EdgeCell& cell = cells_[cell_at_(column, row)];
+        int best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < cell.count; ++i) {
+          const double cost = cell.of[i].cost + problem_.options.edge_penalty * disagreement(cell, cell.of[i]);
+          if (cost < least) least = cost, best = i;
+        }
+        cell.chosen = best;
+      }
+    });
+  }
+
+  // Writes the new heights; returns the cells around them.
+  Array2d<std::uint8_t> settle() {
+    Array2d<std::uint8_t> changed(problem_.grid.width, problem_.grid.height, 0);
+    for (const EdgeCell& cell : cells_) {
+      const float before = heights_.height_m(cell.column, cell.row);
+      const Surface& s = cell.surface();
+      if (std::isnan(before) ? s.seen_by < problem_.options.min_views : cell.chosen == 0) continue;
+      changed(cell.column, cell.row) = 1;
+    }
+    const SurfaceFit surface{problem_.grid.cell_m, alike_m_};
+    std::vector<float> z(cells_.size());
+    executor_.parallel_for(problem_.grid.height, [&](int row) {
+      for (int column = 0; column < problem_.grid.width; ++column) {
+        if (!changed(column, row)) continue;
+        const int i = cell_at_(column, row);
+        const double rough = cells_[i].surface().z;
+        z[i] = static_cast<float>(fitted_height(heights_, changed, surface, column, row, rough).value_or(rough));
+      }
+    });
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const EdgeCell& cell = cells_[i];
+      if (!changed(cell.column, cell.row)) continue;
+      heights_.height_m(cell.column, cell.row) = z[i];
+      heights_.sigma_m(cell.column, cell.row) = cell.surface().sigma;
+    }
+    return around(changed, problem_.options.edge_reach_cells + 1);
+  }
+
+  const SweepProblem& problem_;
+  double usual_difference_;
+  Executor& executor_;
+  Heights& heights_;
+  double alike_m_;  // heights that differ by less are of the same surface
+  Array2d<int> cell_at_;
+  std::vector<EdgeCell> cells_;
+};
+
+// The median difference between the colours in which views show a place, over places whose height is known and far from
+// steps: noise, exposure, texture and poses together. Nothing where too few are.
+std::optional<double> usual_difference(const SweepProblem& problem, const Heights& heights, Executor& executor) {
+  constexpr int kEvery = 8, kFewestPlaces = 32;
+  constexpr double kAnyDifference = 255;
+  const Array2d<float>& z = heights.height_m;
+  const SurfaceVisibility visibility(problem.grid, z, kOcclusionTolerancePlanes * problem.dz_m);
+  const auto level = [&](int column, int row) {
+    for (int y = row - 1; y <= row + 1; ++y)
+      for (int x = column - 1; x <= column + 1; ++x)
+        if (!(std::abs(z(x, y) - z(column, row)) <= kStepPlanes * problem.dz_m)) return false;  // of NaN, too
+    return true;
+  };
+  const int rows = std::max(0, (problem.grid.height - 2) / kEvery);
+  std::vector<std::vector<double>> of_row(rows);
+  executor.parallel_for(rows, [&](int i) {
+    const int row = 1 + i * kEvery;
+    for (int column = 1; column + 1 < problem.grid.width; column += kEvery) {
+      if (!level(column, row)) continue;
+      const PointColors seen = point_colors(problem, visibility, column, row, z(column, row), kAnyDifference);
+      if (seen.seen_by >= kFewestWitnesses) of_row[i].push_back(seen.spread * seen.seen_by / (seen.seen_by - 1));
+    }
+  });
+  std::vector<double> all;
+  for (const std::vector<double>& row : of_row) all.insert(all.end(), row.begin(), row.end());
+  if (all.size() < kFewestPlaces) return std::nullopt;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  constexpr double kLeast = 1.5;  // pixels on an edge are mixed, however little noise there is
+  return std::max(kLeast, *middle);
+}
+
+}  // namespace
+
+void settle_edges(const SweepProblem& problem, Executor& executor, Heights& heights) {
+  if (problem.options.edge_passes == 0) return;
+  const std::optional<double> usual = usual_difference(problem, heights, executor);
+  if (!usual) return;
+  Array2d<std::uint8_t> active(problem.grid.width, problem.grid.height, 1);
+  for (int pass = 0; pass < problem.options.edge_passes; ++pass)
+    EdgePass(problem, *usual, executor, heights).run(active);
+}
+
+}  // namespace skysweep::sweep
