@@ -22,6 +22,9 @@ constexpr std::array<const char*, 3> kWords<sweep::Aggregation>{"all", "better-h
 template <>
 constexpr std::array<const char*, 2> kWords<sweep::Smoothing>{"none", "semi-global"};
 
+template <>
+constexpr std::array<const char*, 2> kWords<sweep::Orthophoto>{"best", "mean"};
+
 template <typename Words>
 std::string listed(const Words& words) {
   std::string text;
@@ -117,6 +120,9 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("fill", o.fill);
   key("close_gap_cells", o.close_gap_cells);
   key("plane_step_px", o.plane_step_px);
+  key("orthophoto", o.orthophoto);
+  key("seam_cost", o.seam_cost);
+  key("compensate_exposure", o.compensate_exposure);
   key("planar_fallback", o.planar_fallback);
 }
 

@@ -24,6 +24,11 @@ enum class Smoothing {
   semi_global,  // along eight paths over the tile's cost volume (sweep/smoothing.h)
 };
 
+enum class Orthophoto {
+  best,  // each cell from one view: as sharp as the photographs
+  mean,  // of the views that agree: less noise, a little less sharp
+};
+
 struct SweepOptions {
   // Support windows of 2^min x 2^min to 2^max x 2^max pixels: the matching cost is the sum over these mipmap levels.
   // Larger windows steady the match on weak texture and eat roof edges.
@@ -113,6 +118,17 @@ struct SweepOptions {
   // Parallax of one plane step as a share of a pixel: how dz is derived when it is not given (0.6 loses nothing after
   // sub-plane fitting; finer costs time).
   double plane_step_px = 0.6;
+
+  // What the colour of a cell is made of.
+  Orthophoto orthophoto = Orthophoto::best;
+
+  // Price of taking the colours of neighbouring cells from different views, grey levels for each pair of cells, more
+  // where the two views look different there: high ones keep seams short and let them go where they do not show; 0:
+  // every cell chooses by itself (sweep/view_choice.h).
+  double seam_cost = 1;
+
+  // Photographs whose exposure differs are made to agree in the orthophoto; false: colours stay as photographed.
+  bool compensate_exposure = true;
 
   // Colour for cells without height from a horizontal plane at the lowest height searched; marked as such in the mask.
   bool planar_fallback = false;

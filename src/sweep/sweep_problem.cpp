@@ -38,6 +38,7 @@ std::optional<std::string> SweepOptions::problem() const {
   if (!(max_cost_to_mean > 0 && max_cost_to_mean <= 1)) return "max_cost_to_mean must lie above 0 and not above 1";
   if (speckle_cells < 0 || speckle_cells > 65536) return "speckle_cells must lie between 0 (off) and 65536";
   if (close_gap_cells < 0 || close_gap_cells > 65536) return "close_gap_cells must lie between 0 (off) and 65536";
+  if (!(seam_cost >= 0 && seam_cost <= 60)) return "seam_cost must lie between 0 (off) and 60 grey levels";
   if (!(plane_step_px > 0.01 && plane_step_px <= 4)) return "plane_step_px must lie between 0.01 and 4";
   return std::nullopt;
 }
