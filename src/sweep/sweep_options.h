@@ -12,6 +12,12 @@ namespace skysweep::sweep {
 // More views than this cannot serve one tile: their costs are kept side by side on the stack.
 inline constexpr int kMaxViews = 32;
 
+enum class MatchingCost {
+  sad,     // absolute differences of luminance, mean over the window levels (sweep/view_costs.h)
+  zncc,    // 1 - zero-mean normalised cross-correlation of patches of cells (sweep/patch_costs.h)
+  census,  // which cells of the patch are brighter than the middle one
+};
+
 enum class Aggregation {
   all_views,    // mean over all views that show the sample
   better_half,  // mean over the floor(n/2) views that agree best with all the others
@@ -34,6 +40,12 @@ struct SweepOptions {
   // Larger windows steady the match on weak texture and eat roof edges.
   int window_level_min = 0;
   int window_level_max = 1;
+
+  // How views are compared. Patches need no normalised luminance (normalization_radius_px = 0), and a GPU cannot yet.
+  MatchingCost cost = MatchingCost::sad;
+
+  // zncc and census: patches of 2 r + 1 cells a side, 2^w cells apart at window level w. 1 or 2.
+  int patch_radius_cells = 2;
 
   // Luminance is normalised to zero mean and unit deviation (20 grey levels) within so many pixels around each, so that
   // photographs of different exposure and surfaces of different contrast compare; 0: as photographed, the classic cost.

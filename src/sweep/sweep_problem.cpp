@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "sweep/patch_costs.h"
 #include "sweep/similar_normalization.h"
 
 namespace skysweep::sweep {
@@ -12,6 +13,10 @@ namespace skysweep::sweep {
 std::optional<std::string> SweepOptions::problem() const {
   if (window_level_min < 0 || window_level_max < window_level_min || window_level_max > 8)
     return "window levels must satisfy 0 <= window_level_min <= window_level_max <= 8";
+  if (patch_radius_cells < 1 || patch_radius_cells > 2) return "patch_radius_cells must be 1 or 2";
+  if (cost != MatchingCost::sad && patch_reach(*this) > kMostPatchReach)
+    return "patch_radius_cells * 2^window_level_max must not exceed " + std::to_string(kMostPatchReach) +
+           " with cost = \"zncc\" or \"census\"";
   if (coarse_levels < 0 || coarse_levels > 6) return "coarse_levels must lie between 0 (search everywhere) and 6";
   if (!(rival_tolerance >= 0 && rival_tolerance <= 60)) return "rival_tolerance must lie between 0 and 60 grey levels";
   if (visibility_passes < 0 || visibility_passes > 8) return "visibility_passes must lie between 0 and 8";
