@@ -9,7 +9,6 @@
 namespace skysweep::sweep {
 namespace {
 
-constexpr int kSampleStep = 4;          // cells between the places compared
 constexpr int kFewestPlaces = 10;       // that two views must share to be compared
 constexpr int kDark = 12, kFull = 245;  // bytes below or above tell nothing of the exposure: noise, clipping
 constexpr double kLeastScatter = 0.01;  // of the differences at single places: grey levels are whole numbers
@@ -23,11 +22,11 @@ std::array<std::uint8_t, 3> channels(Rgb8 c) { return {c.r, c.g, c.b}; }
 // Differences of logarithms at the places that two views share, for every pair i < k and channel.
 class PairSamples {
  public:
-  PairSamples(const Array2d<CellCandidates>& cells, int views) : views_(views), of_(3 * views * views) {
+  PairSamples(const Array2d<CellCandidates>& cells, int views, int step) : views_(views), of_(3 * views * views) {
     std::array<float, 256> log_light{};
     for (int i = 1; i < 256; ++i) log_light[i] = std::log(linear_light(static_cast<std::uint8_t>(i)));
-    for (int y = kSampleStep / 2; y < cells.height(); y += kSampleStep)
-      for (int x = kSampleStep / 2; x < cells.width(); x += kSampleStep) add(cells(x, y), log_light);
+    for (int y = step / 2; y < cells.height(); y += step)
+      for (int x = step / 2; x < cells.width(); x += step) add(cells(x, y), log_light);
   }
 
   std::vector<float>& between(int i, int k, int channel) { return of_[(channel * views_ + i) * views_ + k]; }
@@ -209,8 +208,8 @@ class MeanExposure {
 
 }  // namespace
 
-std::vector<LogGain> estimate_exposures(const Array2d<CellCandidates>& cells, int views) {
-  PairSamples samples(cells, views);
+std::vector<LogGain> estimate_exposures(const Array2d<CellCandidates>& cells, int views, int step) {
+  PairSamples samples(cells, views, step);
   std::vector<LogGain> gains(views);
   bool differ = false;
   for (int c = 0; c < 3; ++c) {

@@ -27,7 +27,8 @@ constexpr double kEqualExposure = 0.02;
 
 // The views' gains up to a common factor (their mean logarithm is 0): the least squares of the medians over the places
 // that two views show, for all pairs of views, weighted by their scatter. Empty when the exposures do not differ.
-std::vector<LogGain> estimate_exposures(const Array2d<CellCandidates>& cells, int views);
+// Every `step`th cell both ways is compared.
+std::vector<LogGain> estimate_exposures(const Array2d<CellCandidates>& cells, int views, int step = 4);
 
 // Replaces the candidates' colours by what a photograph of the mean exposure at that place would show.
 // `log_gains` of all views; `height_m` of the whole grid.

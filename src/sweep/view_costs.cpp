@@ -76,7 +76,9 @@ void sample_windows(const SweepProblem& problem, ViewSamples& samples) {
     const View& view = problem.views[samples.view[k]];
     for (int level = 0; level < samples.levels; ++level)
       samples.luminance[level][k] =
-          view.image->sample_luminance(samples.pixel[k], sampling_level(view, options.window_level_min + level));
+          view.gain *
+              view.image->sample_luminance(samples.pixel[k], sampling_level(view, options.window_level_min + level)) +
+          view.offset;
   }
 }
 
