@@ -21,6 +21,7 @@ CLASSIC = {
     "normalization_radius_px": 0, "normalization_tolerance": 0, "window_level_max": 0, "coarse_levels": 0,
     "aggregation": '"better-half"', "smoothing": '"none"', "few_views_penalty": 0.0, "max_cost_to_mean": 1.0,
     "follow_slopes": "false", "edge_contrast": 0.0, "visibility_passes": 0, "close_gap_cells": 0, "fill": "false",
+    "compensate_exposure": "false",
 }
 # Each rung keeps what the ones above it changed.
 RUNGS = [
@@ -37,6 +38,16 @@ RUNGS = [
     ("cheaper steps at edges of the picture", {"edge_contrast": 12.0}),
     ("views that see past the surface", {"visibility_passes": 1, "few_views_penalty": 1.5}),
     ("gaps filled: `balanced`", {"close_gap_cells": 128, "fill": "true"}),
+]
+# Other costs in the last rung's place, each against it; patches need no normalised luminance.
+PATCHES = {"normalization_radius_px": 0, "normalization_tolerance": 0, "window_level_max": 0}
+OTHER_COSTS = [
+    ("`balanced` with ZNCC of 5 x 5 cells", {**PATCHES, "cost": '"zncc"'}),
+    ("`balanced` with ZNCC of 3 x 3 cells, P1 2, P2 20",
+     {**PATCHES, "cost": '"zncc"', "patch_radius_cells": 1, "small_step_penalty": 2.0, "large_step_penalty": 20.0}),
+    ("`balanced` with census of 5 x 5 cells", {**PATCHES, "cost": '"census"'}),
+    ("`balanced` with census of 5 x 5 cells, P1 2, P2 20",
+     {**PATCHES, "cost": '"census"', "small_step_penalty": 2.0, "large_step_penalty": 20.0}),
 ]
 
 
@@ -77,8 +88,9 @@ def main():
         folder = pathlib.Path(name)
         run([arguments.program, "simulate", arguments.scene, "-o", folder / "flight"])
         settings = {}
-        for rung, changes in RUNGS:
-            settings.update(changes)
+        rungs = [(rung, settings := {**settings, **changes}) for rung, changes in RUNGS]
+        rungs += [(rung, {**settings, **changes}) for rung, changes in OTHER_COSTS]
+        for rung, settings in rungs:
             (folder / "rung.toml").write_text("[sweep]\n" + "".join(f"{k} = {v}\n" for k, v in settings.items()))
             figures, report, _, cpu = measured(arguments.program, folder / "flight", folder,
                                                ["--config", folder / "rung.toml"])

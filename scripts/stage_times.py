@@ -16,7 +16,7 @@ STAGES = [
     ("search range, coarse to fine", r"narrow_search|coarse_surface|search_near|PlaneSet|spread"),
     ("evidence: views counted", r"ShownPlanes|drop_heights_without_evidence"),
     ("colours: visibility", r"SurfaceVisibility"),
-    ("colours: projection, sampling, choice", r"sample_windows|views_showing|view_costs|sample_color|colorize|drop_hidden|best_unoccluded"),
+    ("colours: projection, sampling, choice", r"color_candidates|exposures|PairSamples|choose_views|deviations|encoded_light|sample_color|colorize"),
     ("depth probe", r"PlaneWarp|PixelRays|WindowCorrelation|probe_depth|distinct_planes|undistort"),
     ("photographs: local normalisation", r"normalize_locally"),
     ("photographs: pyramid", r"ImagePyramid|halve|prepared"),

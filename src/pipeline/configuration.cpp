@@ -18,9 +18,14 @@ using settings::TomlWriter;
 template <typename Enum>
 constexpr int kWords = 0;
 template <>
+constexpr std::array<const char*, 3> kWords<sweep::MatchingCost>{"sad", "zncc", "census"};
+template <>
 constexpr std::array<const char*, 3> kWords<sweep::Aggregation>{"all", "better-half", "consensus"};
 template <>
 constexpr std::array<const char*, 2> kWords<sweep::Smoothing>{"none", "semi-global"};
+
+template <>
+constexpr std::array<const char*, 2> kWords<sweep::Orthophoto>{"best", "mean"};
 
 template <typename Words>
 std::string listed(const Words& words) {
@@ -93,6 +98,8 @@ template <typename Visitor>
 void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("window_level_min", o.window_level_min);
   key("window_level_max", o.window_level_max);
+  key("cost", o.cost);
+  key("patch_radius_cells", o.patch_radius_cells);
   key("normalization_radius_px", o.normalization_radius_px);
   key("normalization_tolerance", o.normalization_tolerance);
   key("coarse_levels", o.coarse_levels);
@@ -121,6 +128,9 @@ void visit(sweep::SweepOptions& o, Visitor&& key) {
   key("fill", o.fill);
   key("close_gap_cells", o.close_gap_cells);
   key("plane_step_px", o.plane_step_px);
+  key("orthophoto", o.orthophoto);
+  key("seam_cost", o.seam_cost);
+  key("compensate_exposure", o.compensate_exposure);
   key("planar_fallback", o.planar_fallback);
 }
 

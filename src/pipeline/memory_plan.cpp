@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t kMiB = 1 << 20;
 constexpr std::size_t kProgramBytes = 160 * kMiB;  // measured: resident size after the libraries are loaded, and slack
 constexpr std::size_t kBytesPerImageRecord = 16 << 10;
-// Per cell of a tile with its collar: match result 21, heights 8, colours and counts 7, the tile itself 13, and as much
-// again while GeoTIFFs are compressed.
-constexpr std::size_t kBytesPerCell = 100;
+// Per cell of a tile with its collar: match result 21, heights 8, colours and counts 7, what the views show of it 51,
+// the tile itself 13, and half as much again while GeoTIFFs are compressed.
+constexpr std::size_t kBytesPerCell = 150;
 // Decoding holds the file, the decoder's image, our copy and the pyramid at once.
 constexpr double kDecodingOverhead = 2.5;
 constexpr int kMostTilesInFlight = 4;

@@ -83,6 +83,12 @@ namespace {
 
 void choose_engine(const RunRequest& request, ProjectSettings& project, Progress& progress) {
   project.backend = request.backend ? *request.backend : sweep::default_backend();
+  if (const auto reason = sweep::why_not_on_gpu(project.configuration.sweep);
+      reason && project.backend == sweep::Backend::gpu) {
+    if (request.backend) throw usage_error(*reason + ". Use --backend cpu.");
+    progress.note(*reason + ": the cpu backend takes its place.");
+    project.backend = sweep::Backend::cpu;
+  }
   if (project.backend == sweep::Backend::cpu) project.instruction_set = sweep::cpu_instruction_set_in_use();
   if (project.backend != sweep::Backend::gpu) return;
   sweep::GpuDevice device;

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "pipeline/tile_geometry.h"
 #include "raster/digest.h"
+#include "sweep/luminance_gains.h"
 
 namespace skysweep::pipeline {
 namespace {
@@ -24,6 +25,12 @@ std::vector<std::shared_ptr<const sweep::ImagePyramid>> load_photographs(const s
     }
   });
   return images;
+}
+
+// A plane amid the heights on the cells of the coarse sweep.
+Array2d<float> level_surface(const sweep::HeightRange& heights, const sweep::Grid& grid) {
+  const auto cells = [](int fine) { return (fine + sweep::kCoarseCells - 1) / sweep::kCoarseCells; };
+  return {cells(grid.width), cells(grid.height), static_cast<float>((heights.z_low + heights.z_high) / 2)};
 }
 
 template <typename T>
@@ -73,6 +80,8 @@ PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const ImageRecor
   prepared.problem.views = geometry.views(prepared.selection, prepared.images, geometry.guessed_heights());
   if (prepared.problem.views.size() >= 2) {
     const sweep::HeightRange search = geometry.searched_heights();
+    sweep::equalize_luminance(level_surface(geometry.guessed_heights(), prepared.problem.grid), executor,
+                              prepared.problem);
     prepared.coarse_surface =
         sweep::coarse_surface(prepared.problem, search.z_low, search.z_high, settings.backend, executor);
     prepared.heights = sweep::search_near(prepared.coarse_surface, prepared.problem);
@@ -81,6 +90,7 @@ PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const ImageRecor
     prepared.selection = geometry.select(*prepared.heights);
     prepared.images = load_photographs(geometry.names(prepared.selection), photos, executor);
     prepared.problem.views = geometry.views(prepared.selection, prepared.images, *prepared.heights);
+    sweep::equalize_luminance(prepared.coarse_surface, executor, prepared.problem);
   }
   prepared.view_names = geometry.names(prepared.selection);
   return prepared;

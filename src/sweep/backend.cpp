@@ -4,6 +4,7 @@
 #include "sweep/bands.h"
 #include "sweep/best_planes.h"
 #include "sweep/cpu/match_cpu.h"
+#include "sweep/cpu/patches_cpu.h"
 #include "sweep/cpu/smoothing_cpu.h"
 #include "sweep/gpu/engine.h"
 #include "sweep/gpu/match_gpu.h"
@@ -27,13 +28,27 @@ namespace {
 
 // What the device cannot do is done by the other.
 template <typename OnGpu, typename OnCpu>
-auto gpu_or_cpu(OnGpu try_gpu, OnCpu take_cpu) {
+auto gpu_or_cpu(const SweepOptions& options, OnGpu try_gpu, OnCpu take_cpu) {
+  if (const auto reason = why_not_on_gpu(options)) {
+    on_gpu::tell_gpu_listener("The cpu backend computes what the GPU could not. " + *reason + ".");
+    return take_cpu();
+  }
   try {
     return try_gpu();
   } catch (const skysweep::gpu::DeviceError& error) {
     on_gpu::tell_gpu_listener(std::string("The cpu backend computes what the GPU could not. ") + error.what());
   }
   return take_cpu();
+}
+
+CostVolume costs_on_cpu(const SweepProblem& problem, Executor& executor) {
+  return problem.options.cost == MatchingCost::sad ? cpu::match_costs(problem, executor)
+                                                   : cpu::match_patch_costs(problem, executor);
+}
+
+MatchResult cells_on_cpu(const SweepProblem& problem, Executor& executor) {
+  return problem.options.cost == MatchingCost::sad ? cpu::match_cell_by_cell(problem, executor)
+                                                   : cpu::match_patches_cell_by_cell(problem, executor);
 }
 
 MatchResult match_in_bands(const SweepProblem& problem, Backend backend, Executor& executor) {
@@ -53,8 +68,9 @@ MatchResult match_in_bands(const SweepProblem& problem, Backend backend, Executo
 MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor& executor) {
   if (problem.options.smoothing == Smoothing::none) return match_cell_by_cell(problem, backend, executor);
   if (backend != Backend::gpu) return match_in_bands(problem, backend, executor);
-  return gpu_or_cpu([&] { return on_gpu::match_planes(problem); },
-                    [&] { return match_in_bands(problem, Backend::cpu, executor); });
+  return gpu_or_cpu(
+      problem.options, [&] { return on_gpu::match_planes(problem); },
+      [&] { return match_in_bands(problem, Backend::cpu, executor); });
 }
 
 CostVolume match_costs(const SweepProblem& problem, Backend backend, Executor& executor) {
@@ -62,10 +78,11 @@ CostVolume match_costs(const SweepProblem& problem, Backend backend, Executor& e
     case Backend::reference: return reference::match_costs(problem, executor);
     case Backend::cpu: break;
     case Backend::gpu:
-      return gpu_or_cpu([&] { return on_gpu::match_costs(problem); },
-                        [&] { return cpu::match_costs(problem, executor); });
+      return gpu_or_cpu(
+          problem.options, [&] { return on_gpu::match_costs(problem); },
+          [&] { return costs_on_cpu(problem, executor); });
   }
-  return cpu::match_costs(problem, executor);
+  return costs_on_cpu(problem, executor);
 }
 
 MatchResult match_cell_by_cell(const SweepProblem& problem, Backend backend, Executor& executor) {
@@ -73,10 +90,11 @@ MatchResult match_cell_by_cell(const SweepProblem& problem, Backend backend, Exe
     case Backend::reference: return reference::match_cell_by_cell(problem, executor);
     case Backend::cpu: break;
     case Backend::gpu:
-      return gpu_or_cpu([&] { return on_gpu::match_cell_by_cell(problem); },
-                        [&] { return cpu::match_cell_by_cell(problem, executor); });
+      return gpu_or_cpu(
+          problem.options, [&] { return on_gpu::match_cell_by_cell(problem); },
+          [&] { return cells_on_cpu(problem, executor); });
   }
-  return cpu::match_cell_by_cell(problem, executor);
+  return cells_on_cpu(problem, executor);
 }
 
 CostVolume smooth(const SweepProblem& problem, const CostVolume& costs, Backend backend) {
@@ -84,9 +102,15 @@ CostVolume smooth(const SweepProblem& problem, const CostVolume& costs, Backend 
     case Backend::reference: return reference::smooth(problem, costs);
     case Backend::cpu: break;
     case Backend::gpu:
-      return gpu_or_cpu([&] { return on_gpu::smooth(problem, costs); }, [&] { return cpu::smooth(problem, costs); });
+      return gpu_or_cpu(
+          problem.options, [&] { return on_gpu::smooth(problem, costs); }, [&] { return cpu::smooth(problem, costs); });
   }
   return cpu::smooth(problem, costs);
+}
+
+std::optional<std::string> why_not_on_gpu(const SweepOptions& options) {
+  if (options.cost == MatchingCost::sad) return std::nullopt;
+  return "The gpu backend compares views by cost = \"sad\" only, not by patches (\"zncc\", \"census\")";
 }
 
 GpuDevice gpu_device() {

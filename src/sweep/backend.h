@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ MatchResult match_planes(const SweepProblem& problem, Backend backend, Executor&
 // kept.
 CostVolume match_costs(const SweepProblem& problem, Backend backend, Executor& executor);
 MatchResult match_cell_by_cell(const SweepProblem& problem, Backend backend, Executor& executor);
+
+// Why the gpu backend cannot serve these options, a sentence without its full stop; nothing if it can.
+std::optional<std::string> why_not_on_gpu(const SweepOptions& options);
 
 // The device of the gpu backend, opened on the first call. Throws Error(failed) that says why there is none.
 struct GpuDevice {

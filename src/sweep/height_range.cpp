@@ -56,8 +56,8 @@ SweepProblem coarse_problem(const SweepProblem& fine, double z_low, double z_hig
   for (View& view : coarse.views) view.base_level += std::countr_zero(static_cast<unsigned>(kCoarseCells));
   coarse.options = fine.options;
   coarse.options.window_level_min = 0;
-  coarse.options.window_level_max = 2;
-  coarse.options.refinement_radius_cells = 0;  // ranges need no better heights
+  coarse.options.window_level_max = fine.options.cost == MatchingCost::sad ? 2 : 0;  // patches are wide as they are
+  coarse.options.refinement_radius_cells = 0;                                        // ranges need no better heights
   coarse.options.max_cost_to_mean = kMaxCostToMean;
   coarse.search_everywhere(comparable_planes(planes_between(z_low, z_high, coarse.dz_m, 1)));
   return coarse;

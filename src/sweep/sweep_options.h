@@ -12,6 +12,12 @@ namespace skysweep::sweep {
 // More views than this cannot serve one tile: their costs are kept side by side on the stack.
 inline constexpr int kMaxViews = 32;
 
+enum class MatchingCost {
+  sad,     // absolute differences of luminance, mean over the window levels (sweep/view_costs.h)
+  zncc,    // 1 - zero-mean normalised cross-correlation of patches of cells (sweep/patch_costs.h)
+  census,  // which cells of the patch are brighter than the middle one
+};
+
 enum class Aggregation {
   all_views,    // mean over all views that show the sample
   better_half,  // mean over the floor(n/2) views that agree best with all the others
@@ -24,11 +30,22 @@ enum class Smoothing {
   semi_global,  // along eight paths over the tile's cost volume (sweep/smoothing.h)
 };
 
+enum class Orthophoto {
+  best,  // each cell from one view: as sharp as the photographs
+  mean,  // of the views that agree: less noise, a little less sharp
+};
+
 struct SweepOptions {
   // Support windows of 2^min x 2^min to 2^max x 2^max pixels: the matching cost is the sum over these mipmap levels.
   // Larger windows steady the match on weak texture and eat roof edges.
   int window_level_min = 0;
   int window_level_max = 1;
+
+  // How views are compared. Patches need no normalised luminance (normalization_radius_px = 0), and a GPU cannot yet.
+  MatchingCost cost = MatchingCost::sad;
+
+  // zncc and census: patches of 2 r + 1 cells a side, 2^w cells apart at window level w. 1 or 2.
+  int patch_radius_cells = 2;
 
   // Luminance is normalised to zero mean and unit deviation (20 grey levels) within so many pixels around each, so that
   // photographs of different exposure and surfaces of different contrast compare; 0: as photographed, the classic cost.
@@ -127,6 +144,17 @@ struct SweepOptions {
   // Parallax of one plane step as a share of a pixel: how dz is derived when it is not given (0.6 loses nothing after
   // sub-plane fitting; finer costs time).
   double plane_step_px = 0.6;
+
+  // What the colour of a cell is made of.
+  Orthophoto orthophoto = Orthophoto::best;
+
+  // Price of taking the colours of neighbouring cells from different views, grey levels for each pair of cells, more
+  // where the two views look different there: high ones keep seams short and let them go where they do not show; 0:
+  // every cell chooses by itself (sweep/view_choice.h).
+  double seam_cost = 1;
+
+  // Photographs whose exposure differs are made to agree in the orthophoto; false: colours stay as photographed.
+  bool compensate_exposure = true;
 
   // Colour for cells without height from a horizontal plane at the lowest height searched; marked as such in the mask.
   bool planar_fallback = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "sweep/patch_costs.h"
 #include "sweep/similar_normalization.h"
 
 namespace skysweep::sweep {
@@ -12,6 +13,10 @@ namespace skysweep::sweep {
 std::optional<std::string> SweepOptions::problem() const {
   if (window_level_min < 0 || window_level_max < window_level_min || window_level_max > 8)
     return "window levels must satisfy 0 <= window_level_min <= window_level_max <= 8";
+  if (patch_radius_cells < 1 || patch_radius_cells > 2) return "patch_radius_cells must be 1 or 2";
+  if (cost != MatchingCost::sad && patch_reach(*this) > kMostPatchReach)
+    return "patch_radius_cells * 2^window_level_max must not exceed " + std::to_string(kMostPatchReach) +
+           " with cost = \"zncc\" or \"census\"";
   if (coarse_levels < 0 || coarse_levels > 6) return "coarse_levels must lie between 0 (search everywhere) and 6";
   if (!(rival_tolerance >= 0 && rival_tolerance <= 60)) return "rival_tolerance must lie between 0 and 60 grey levels";
   if (visibility_passes < 0 || visibility_passes > 8) return "visibility_passes must lie between 0 and 8";
@@ -42,6 +47,7 @@ std::optional<std::string> SweepOptions::problem() const {
   if (!(edge_penalty >= 0 && edge_penalty <= 255)) return "edge_penalty must lie between 0 and 255";
   if (!(edge_hidden_cost >= 0 && edge_hidden_cost <= 255)) return "edge_hidden_cost must lie between 0 and 255";
   if (close_gap_cells < 0 || close_gap_cells > 65536) return "close_gap_cells must lie between 0 (off) and 65536";
+  if (!(seam_cost >= 0 && seam_cost <= 60)) return "seam_cost must lie between 0 (off) and 60 grey levels";
   if (!(plane_step_px > 0.01 && plane_step_px <= 4)) return "plane_step_px must lie between 0.01 and 4";
   return std::nullopt;
 }

@@ -34,6 +34,8 @@ struct View {
   camera::Camera camera;  // in the tile's frame
   int base_level =
       0;  // mipmap level whose pixels are about as large as a cell: 0 when a cell is no larger than a pixel
+  // The search compares gain * luminance + offset, grey levels (sweep/luminance_gains.h).
+  double gain = 1, offset = 0;
 };
 
 // Planes are searched block by block: each block of kBlockCells x kBlockCells cells has planes of its own.

@@ -12,33 +12,38 @@ namespace {
 
 using Costs = std::array<double, kMaxViews>;
 
-double mean_of_lowest(Costs costs, int count, int used) {
+// Mean difference of the pairs of views, weighted by how near their C_k are to being one of the lowest.
+double difference_within_consensus(const ViewSamples& samples, const Costs& costs, double share) {
+  const Costs weights = consensus_weights(costs, samples.count, share);
+  double sum = 0, total = 0;
+  for (int i = 0; i < samples.count; ++i) {
+    for (int k = i + 1; k < samples.count; ++k) {
+      const double both = weights[i] * weights[k];
+      if (both == 0) continue;
+      sum += both * samples.difference(i, k);
+      total += both;
+    }
+  }
+  return sum / total;
+}
+
+}  // namespace
+
+double mean_of_lowest(std::array<double, kMaxViews> costs, int count, int used) {
   std::sort(costs.begin(), costs.begin() + count);
   double sum = 0;
   for (int k = 0; k < used; ++k) sum += costs[k];
   return sum / used;
 }
 
-// Mean difference of the pairs of views, weighted by how near their C_k are to being one of the lowest.
-double difference_within_consensus(const ViewSamples& samples, const Costs& costs, double share) {
-  Costs sorted = costs;
-  std::sort(sorted.begin(), sorted.begin() + samples.count);
-  const double limit = sorted[consensus_size(samples.count, share) - 1];
+std::array<double, kMaxViews> consensus_weights(const std::array<double, kMaxViews>& costs, int count, double share) {
+  Costs sorted = costs, weights{};
+  std::sort(sorted.begin(), sorted.begin() + count);
+  const double limit = sorted[consensus_size(count, share) - 1];
   const double reach = kConsensusSoftness * limit + kConsensusSoftnessGrey;
-  const auto weight = [&](int k) { return std::clamp(1 - (costs[k] - limit) / reach, 0.0, 1.0); };
-  double sum = 0, weights = 0;
-  for (int i = 0; i < samples.count; ++i) {
-    for (int k = i + 1; k < samples.count; ++k) {
-      const double both = weight(i) * weight(k);
-      if (both == 0) continue;
-      sum += both * samples.difference(i, k);
-      weights += both;
-    }
-  }
-  return sum / weights;
+  for (int k = 0; k < count; ++k) weights[k] = std::clamp(1 - (costs[k] - limit) / reach, 0.0, 1.0);
+  return weights;
 }
-
-}  // namespace
 
 int consensus_size(int n, double share) {
   const int size = static_cast<int>(std::ceil(n * share - kShareSlack));
@@ -71,7 +76,9 @@ void sample_windows(const SweepProblem& problem, ViewSamples& samples) {
     const View& view = problem.views[samples.view[k]];
     for (int level = 0; level < samples.levels; ++level)
       samples.luminance[level][k] =
-          view.image->sample_luminance(samples.pixel[k], sampling_level(view, options.window_level_min + level));
+          view.gain *
+              view.image->sample_luminance(samples.pixel[k], sampling_level(view, options.window_level_min + level)) +
+          view.offset;
   }
 }
 

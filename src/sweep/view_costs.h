@@ -49,4 +49,10 @@ constexpr double kShareSlack = 1e-4;  // what rounding may add to n times the sh
 // change ranks, and rounding does not decide which of them counts.
 constexpr double kConsensusSoftness = 0.1, kConsensusSoftnessGrey = 1. / 64;
 
+// Mean of the `used` lowest of the first `count` costs.
+double mean_of_lowest(std::array<double, kMaxViews> costs, int count, int used);
+
+// How much each of the first `count` views, with these C_k (grey levels), counts for the consensus: 0 to 1.
+std::array<double, kMaxViews> consensus_weights(const std::array<double, kMaxViews>& costs, int count, double share);
+
 }  // namespace skysweep::sweep

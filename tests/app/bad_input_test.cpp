@@ -33,6 +33,18 @@ TEST_F(BadInput, fewer_speckle_cells_than_none) {
   expect_refused(run({"--config", folder / "speckles.toml"}), 2, {"speckles.toml", "speckle_cells must lie between 0"});
 }
 
+TEST_F(BadInput, cost_that_the_backend_does_not_know) {
+  put_bytes(folder / "cost.toml", "[sweep]\ncost = \"census\"\n");
+  expect_refused(run({"--config", folder / "cost.toml", "--backend", "gpu"}), 2, {"sad", "census", "--backend cpu"});
+  put_bytes(folder / "cost.toml", "[sweep]\ncost = \"ssd\"\n");
+  expect_refused(run({"--config", folder / "cost.toml"}), 2, {"cost.toml", "must be one of", "zncc"});
+}
+
+TEST_F(BadInput, orthophoto_of_no_kind) {
+  put_bytes(folder / "ortho.toml", "[sweep]\northophoto = \"median\"\n");
+  expect_refused(run({"--config", folder / "ortho.toml"}), 2, {"ortho.toml", "must be one of", "best", "mean"});
+}
+
 TEST_F(BadInput, cell_of_no_size) { expect_refused(run({"--cell=0"}), 2, {"--cell must be a positive number"}); }
 
 TEST_F(BadInput, options_without_sense_are_usage_errors) {

@@ -51,6 +51,15 @@ std::vector<ContractCase> cases() {
   };
   return {
       {"eight_views_of_rolling_ground", [] { return standard(8, rolling); }},
+      {"exposures_that_differ",
+       [] {
+         SyntheticProblem p = standard(4, rolling);
+         for (std::size_t v = 0; v < p.problem.views.size(); ++v) {
+           p.problem.views[v].gain = 0.8 + 0.15 * static_cast<double>(v);
+           p.problem.views[v].offset = 3 - 4 * static_cast<double>(v);
+         }
+         return p;
+       }},
       {"two_views", [] { return standard(2, rolling); }},
       {"thirty_two_views",
        [] {

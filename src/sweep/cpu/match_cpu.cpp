@@ -103,8 +103,10 @@ HWY_INLINE void segment_costs(const RunJob& job, int segment, double z, Workspac
   }
   work.samples.levels = job.options->window_level_max - job.options->window_level_min + 1;
   for (int level = 0; level < work.samples.levels; ++level)
-    for (int k = 0; k < work.samples.count; ++k)
+    for (int k = 0; k < work.samples.count; ++k) {
       sample_segment(work.active[k]->levels[level], work.positions[k], work.samples.luminance_of(level, k));
+      apply_gain(*work.active[k], work.samples.luminance_of(level, k));
+    }
   take_differences(work.samples, work.differences);
   aggregate_segment(work.samples, work.differences, *job.options, work.costs.data());
   if (job.lowest_visible) price_hidden(*job.options, work);

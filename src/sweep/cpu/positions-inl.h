@@ -113,8 +113,8 @@ struct Positions {
 
 // The cells of a segment one by one, exactly: for segments that touch a place the camera cannot show, or where no
 // polynomial follows the projection.
-HWY_NOINLINE bool positions_one_by_one(const ViewKernel& view, Vec2d first_cell, double cell_m, double z,
-                                       Positions& out) {
+inline HWY_NOINLINE bool positions_one_by_one(const ViewKernel& view, Vec2d first_cell, double cell_m, double z,
+                                              Positions& out) {
   bool any = false;
   for (int i = 0; i < kSegmentCells; ++i) {
     const auto pixel = view.camera->project({first_cell.x + i * cell_m, first_cell.y, z});

@@ -79,6 +79,15 @@ HWY_INLINE void sample_segment(const LevelKernel& level, const Positions& positi
   }
 }
 
+// What a view's samples of a segment are compared as (sweep/luminance_gains.h).
+HWY_INLINE void apply_gain(const ViewKernel& view, float* HWY_RESTRICT samples) {
+  if (view.gain == 1) return;
+  const F f;
+  const VF gain = hn::Set(f, view.gain), offset = hn::Set(f, view.offset);
+  for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f)))
+    hn::Store(hn::MulAdd(hn::Load(f, samples + i), gain, offset), f, samples + i);
+}
+
 }  // namespace skysweep::sweep::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -19,6 +19,8 @@ ViewKernel make_view_kernel(const View& view, const SweepOptions& options) {
   kernel.width = static_cast<float>(model.width_px);
   kernel.height = static_cast<float>(model.height_px);
   kernel.camera = &view.camera;
+  kernel.gain = static_cast<float>(view.gain);
+  kernel.offset = static_cast<float>(view.offset * kLuminanceScale);
   for (int window = options.window_level_min; window <= options.window_level_max; ++window) {
     const int level = sampling_level(view, window);
     const LuminanceLevel& image = view.image->luminance(level);

@@ -31,6 +31,7 @@ struct ViewKernel {
   camera::Distortion distortion;
   double fold_radius_squared = 0;
   float width = 0, height = 0;
+  float gain = 1, offset = 0;  // of what is sampled, stored units
   std::array<LevelKernel, kMaxWindowLevels> levels;
   const camera::Camera* camera = nullptr;
 };

@@ -81,7 +81,7 @@ std::vector<float> views_of(const SweepProblem& problem, const std::vector<int>&
       const LuminanceLevel& image = view.image->luminance(level);
       const PlacedLevel& placed = layout.levels[level];
       add({double(placed.x), double(placed.y), double(image.width - 1), double(image.height - 1)});
-      add({std::ldexp(1.0, -level), 0, 0, 0});
+      add({std::ldexp(1.0, -level), view.gain, view.offset * kLuminanceScale / 65535, 0});  // texels are 0 to 1
     }
   }
   return numbers;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "sweep/patch_costs.h"
 #include "sweep/view_costs.h"
 
 namespace skysweep::sweep::reference {
@@ -26,11 +27,13 @@ double cost_at(const SweepProblem& problem, int column, int row, int k) {
   if (!problem.planes_at(column, row).contains(k)) return kInfinity;
   const Vec2d cell = problem.grid.cell_center(column, row);
   const Vec3d point{cell.x, cell.y, k * problem.dz_m};
+  const bool patches = problem.options.cost != MatchingCost::sad;
   ViewSamples samples = views_showing(problem, point);
+  if (patches) keep_showing_patch(problem, point, samples);
   const bool shown = samples.count >= problem.options.min_views;
   if (problem.visibility.any()) keep_unhidden(problem, column, row, static_cast<float>(point.z), samples);
-  sample_windows(problem, samples);
-  const double cost = matching_cost(samples, problem.options);
+  if (!patches) sample_windows(problem, samples);
+  const double cost = patches ? patch_cost(problem, point, samples) : matching_cost(samples, problem.options);
   return cost == kInfinity && shown && problem.visibility.any() ? problem.options.hidden_cost : cost;
 }
 

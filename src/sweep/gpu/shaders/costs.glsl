@@ -14,7 +14,7 @@ layout(std430, binding = 0) readonly buffer Geometry { double geometry[]; };
 
 struct Level {
   vec4 place;  // where its pixel (0, 0) lies in its layer; its last column and row
-  vec4 scale;  // pixels of the level for one of the photograph; the rest is not used
+  vec4 scale;  // pixels of the level for one of the photograph; gain and offset of the view; the rest is not used
 };
 struct View {
   vec4 lens;   // fx, fy, squared fold radius, 1 if there is distortion
@@ -167,7 +167,7 @@ float sample_level(int v, int level) {
   vec2 pixel = clamp(whole + base_whole, vec2(-1), l.place.zw);
   vec4 four = textureGather(atlas, vec3((l.place.xy + pixel + 1) * vec2(texel_width, texel_height), views[v].radial.w));
   vec2 rows = mix(four.wx, four.zy, weight.x);
-  return mix(rows.x, rows.y, weight.y);
+  return mix(rows.x, rows.y, weight.y) * l.scale.y + l.scale.z;
 }
 
 #define SAMPLE_LEVEL(v, l) luminance[(v) * LEVELS + (l)] = sample_level(v, l);
