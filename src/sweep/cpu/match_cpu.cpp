@@ -68,23 +68,24 @@ HWY_INLINE void find_positions(const RunJob& job, int segment, double z, Workspa
   samples.count = 0;
   samples.all = true;
   work.shown_by.fill(0);
-  for (std::size_t v = 0; v < job.views->size(); ++v) {
-    const ViewKernel& view = (*job.views)[v];
+  for (std::size_t index = 0; index < job.views->size(); ++index) {
+    const ViewKernel& view = (*job.views)[index];
     Positions& positions = work.positions[samples.count];
     bool any = false, all = true;
-    if (!follows_polynomial(work.knots[v].u.data() + segment) ||
-        !follows_polynomial(work.knots[v].v.data() + segment)) {
+    Segment u, v;
+    if (polynomial_through(work.knots[index].u.data() + segment, u) &&
+        polynomial_through(work.knots[index].v.data() + segment, v)) {
+      any = positions_of(view, u, v, positions, all);
+    } else {
       const Vec2d first{job.first_cell.x + segment * kSegmentCells * job.cell_m, job.first_cell.y};
       any = positions_one_by_one(view, first, job.cell_m, z, positions);
       all = false;
-    } else {
-      any = positions_of(view, work.knots[v], segment, positions, all);
     }
     if (!any) continue;
     if (job.lowest_visible) {
       add_shown(positions, work);
-      if (!keep_visible(job.lowest_visible + v * kRunCells + segment * kSegmentCells, static_cast<float>(z), positions,
-                        all))
+      if (!keep_visible(job.lowest_visible + index * kRunCells + segment * kSegmentCells, static_cast<float>(z),
+                        positions, all))
         continue;
     }
     samples.all = samples.all && all;
@@ -211,7 +212,7 @@ void fill_run(const RunJob& job, const std::array<Cost*, kSegmentsPerRun>& cells
 double sample_everywhere(const ImagePyramid& image, long long samples) {
   const F f;
   const LuminanceLevel& luminance = image.luminance(0);
-  const LevelKernel level{luminance.values.data(), luminance.stride, luminance.width, luminance.height, 1};
+  const LevelKernel level{luminance.pairs.data(), luminance.stride, luminance.width, luminance.height, 1};
   Positions positions;
   for (int i = 0; i < kSegmentCells; ++i) {
     positions.u[i] = 0.9f * static_cast<float>(i) + 0.7f;
