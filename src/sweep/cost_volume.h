@@ -58,7 +58,7 @@ class CostVolume {
   // has them; null where k is not stored.
   const Cost* find(int column, int row, int k) const;
 
-  std::size_t bytes() const { return values_.size() * sizeof(Cost); }
+  std::size_t bytes() const { return (values_.size() - 2 * kVolumeLanes) * sizeof(Cost); }
 
   // Elements that one cell of a block with these planes takes.
   static int padded_planes(const PlaneSet& planes);
@@ -76,7 +76,7 @@ class CostVolume {
   Array2d<int> cell_size_;               // elements of each cell of a block
   Array2d<std::size_t> block_offset_;    // of the block's first cell within a row of cells
   std::vector<std::size_t> row_offset_;  // of each row of cells
-  std::vector<Cost> values_;
+  std::vector<Cost> values_;  // with a vector before the first and behind the last, for whoever reads neighbours
 };
 
 // Whole-number cost of a mean absolute difference in grey levels; infinity becomes kWorstCost.

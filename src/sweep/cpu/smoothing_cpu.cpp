@@ -40,9 +40,7 @@ void continue_paths(const CellUpdate& cell) {
         running_least = hn::Min(running_least, value);
       }
     });
-    alignas(64) std::array<Cost, kVolumeLanes> lanes;
-    hn::Store(running_least, d, lanes.data());
-    cell.least_now[direction] = *std::min_element(lanes.begin(), lanes.begin() + hn::Lanes(d));
+    cell.least_now[direction] = hn::GetLane(hn::MinOfLanes(d, running_least));
   }
 }
 
