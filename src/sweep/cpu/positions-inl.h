@@ -28,7 +28,8 @@ struct Knots {
   alignas(64) std::array<double, kKnots + 8> u, v;
 };
 
-HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double cell_m, double z, Knots& knots) {
+// Returns whether the camera can show the points of all knots.
+HWY_INLINE bool project_knots(const ViewKernel& view, Vec2d first_cell, double cell_m, double z, Knots& knots) {
   const D d;
   const Mat3d& r = view.cam_from_world;
   const double dy = first_cell.y - view.center.y, dz = z - view.center.z;
@@ -37,6 +38,7 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
   const auto one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
   const auto nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
   const camera::Distortion& lens = view.distortion;
+  bool all = true;
   for (int k = 0; k < kKnots; k += static_cast<int>(hn::Lanes(d))) {
     const auto dx =
         hn::MulAdd(hn::Iota(d, static_cast<double>(k)), coefficient(kSegmentCells * cell_m), coefficient(dx0));
@@ -60,7 +62,25 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
     const auto v = hn::MulAdd(distorted_y, coefficient(view.fy), coefficient(view.cy));
     hn::Store(hn::IfThenElse(usable, u, nan), d, knots.u.data() + k);
     hn::Store(hn::IfThenElse(usable, v, nan), d, knots.v.data() + k);
+    all = all && hn::AllTrue(d, usable);
   }
+  return all;
+}
+
+// Whether the polynomials through knots may reach pixels 0..size somewhere between those of the run: between the two
+// knots in the middle of six, one leaves the middle of their range by less than 1.5 times half of it (the sum of the
+// magnitudes of Lagrange's basis polynomials is below 1.4 there). The knots must be numbers.
+HWY_INLINE bool may_reach(const std::array<double, kKnots + 8>& knots, double size) {
+  const hn::CappedTag<double, kKnots> d;
+  static_assert(kKnots % hn::MaxLanes(d) == 0);
+  auto low = hn::Load(d, knots.data()), high = low;
+  for (int k = static_cast<int>(hn::MaxLanes(d)); k < kKnots; k += static_cast<int>(hn::MaxLanes(d))) {
+    low = hn::Min(low, hn::Load(d, knots.data() + k));
+    high = hn::Max(high, hn::Load(d, knots.data() + k));
+  }
+  const double least = hn::GetLane(hn::MinOfLanes(d, low)), most = hn::GetLane(hn::MaxOfLanes(d, high));
+  const double reach = 0.25 * (most - least);
+  return most + reach >= -1 && least - reach <= size + 1;
 }
 
 // One pixel coordinate along a segment: base + c[0] + t (c[1] + t (... c[5])), t = 0..1 over kSegmentCells cells, the
@@ -96,10 +116,11 @@ HWY_INLINE bool polynomial_through(const double* HWY_RESTRICT knot, Segment& out
   bool good = true;
   Segment made;
   for (int j = 0; j < 8; j += kLanes) {
-    // Knots relative to the base: constants change the first coefficient alone.
-    auto sum = hn::Mul(hn::Load(d, kQuintic[0] + j), hn::Set(d, knot[0] - base));
-    for (int k = 1; k < 6; ++k) sum = hn::MulAdd(hn::Load(d, kQuintic[k] + j), hn::Set(d, knot[k] - base), sum);
-    sum = hn::Mul(sum, hn::Set(d, 1.0 / 120));
+    auto sum = hn::Mul(hn::Load(d, kQuintic[0] + j), hn::Set(d, knot[0]));
+    for (int k = 1; k < 6; ++k) sum = hn::MulAdd(hn::Load(d, kQuintic[k] + j), hn::Set(d, knot[k]), sum);
+    // The base changes the first coefficient alone.
+    const auto first = j == 0 ? hn::IfThenElseZero(hn::FirstN(d, 1), hn::Set(d, base)) : hn::Zero(d);
+    sum = hn::MulSub(sum, hn::Set(d, 1.0 / 120), first);
     good = good && hn::AllTrue(d, hn::Lt(hn::Abs(sum), hn::Load(d, kLargest + j)));
     hn::Store(hn::DemoteTo(f, sum), f, made.c.data() + j);
   }
