@@ -28,22 +28,23 @@ class Marcher {
     const double steps = std::max(std::abs(dx), std::abs(dy));
     double lowest = question_.lowest_m;
     const BlockExit exit(dx / steps, dy / steps);
+    const double per_step = 1 / steps;
     for (int i = 1 + question_.skipped_cells; i < steps;) {
-      const double t = i / steps;
-      // A line from (cell, z) passes step i at z + t (eye.z - z): the z with which it just clears a height there. The
-      // farther away the height, the lower, as long as it lies below the eye.
-      const auto clearing = [&](double height) { return (height - t * eye.z) / (1 - t); };
-      if (clearing(highest_) <= lowest) break;
+      const double t = i * per_step;
+      // Where the line from the lowest height known to be visible passes; from here on it only rises.
+      const double line = lowest + t * (eye.z - lowest);
+      if (highest_ <= line) break;
       const int x = rounded(column + t * dx), y = rounded(row + t * dy);
       if (!question_.surface_m.contains(x, y)) break;
-      const int clear =
-          maxima_.clear_cells(x, y, [&](float highest) { return clearing(highest - question_.tolerance_m) <= lowest; });
+      const double limit = line + question_.tolerance_m;
+      const int clear = maxima_.clear_cells(x, y, [limit](float highest) { return highest <= limit; });
       if (clear > 0) {
         i += exit.steps(clear, x, y);
         continue;
       }
       const float height = question_.surface_m(x, y);
-      if (!std::isnan(height)) lowest = std::max(lowest, clearing(height - question_.tolerance_m));
+      // A line from (cell, z) passes step i at z + t (eye.z - z): the z with which it just clears this height.
+      if (height > limit) lowest = (height - question_.tolerance_m - t * eye.z) / (1 - t);  // never of NaN
       ++i;
     }
     return lowest > question_.lowest_m ? static_cast<float>(lowest) : kNothing;
