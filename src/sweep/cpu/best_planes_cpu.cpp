@@ -19,13 +19,16 @@ using C = hn::CappedTag<Cost, kVolumeLanes>;
 
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(C()));
 
-// Calls visit(values, first plane, planes, first slot) for every vector of the cell's planes.
+// Calls visit(range, first plane's place in it, lanes that hold its planes) for every vector of the cell's planes.
 template <typename Visit>
 HWY_INLINE void for_each_vector(const PlaneSet& planes, Visit visit) {
-  for_each_stored_range(planes, [&](StoredRange range) HWY_ATTR {
-    const int count = range.planes.count();
-    for (int i = 0; i < count; i += kLanes) visit(range, i, hn::FirstN(C(), static_cast<std::size_t>(count - i)));
-  });
+  int slot = 0;
+  for (const PlaneRange& range : planes.ranges()) {
+    const int count = range.count();
+    for (int i = 0; i < count; i += kLanes)
+      visit(StoredRange{range, slot}, i, hn::FirstN(C(), static_cast<std::size_t>(count - i)));
+    slot += padded_planes(range);
+  }
 }
 
 HWY_INLINE void find_least(const CellValues& cell, PlaneWinner& winner) {
