@@ -41,15 +41,6 @@ std::size_t CostVolume::offset(int column, int row) const {
   return kVolumeLanes + row_offset_[row] + block_offset_(bx, by) + within * cell_size_(bx, by);
 }
 
-const Cost* CostVolume::find(int column, int row, int k) const {
-  int slot = 0;
-  for (const PlaneRange& range : planes_at(column, row).ranges()) {
-    if (k <= range.last) return k < range.first ? nullptr : cell(column, row) + slot + (k - range.first);
-    slot += sweep::padded_planes(range);
-  }
-  return nullptr;
-}
-
 int CostVolume::padded_planes(const PlaneSet& planes) {
   int elements = 0;
   for (const PlaneRange& range : planes.ranges()) elements += sweep::padded_planes(range);

@@ -54,10 +54,6 @@ class CostVolume {
   Cost* cell(int column, int row) { return values_.data() + offset(column, row); }
   const Cost* cell(int column, int row) const { return values_.data() + offset(column, row); }
 
-  // Value at plane k, with the values of the planes below and above it behind and before it as long as the same range
-  // has them; null where k is not stored.
-  const Cost* find(int column, int row, int k) const;
-
   std::size_t bytes() const { return (values_.size() - 2 * kVolumeLanes) * sizeof(Cost); }
 
   // Elements that one cell of a block with these planes takes.
