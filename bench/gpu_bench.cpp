@@ -78,7 +78,8 @@ void pure_sampling(benchmark::State& state, bool linear) {
                              linear ? gpu::Filter::linear : gpu::Filter::nearest);
   for (int layer = 0; layer < layers; ++layer) {
     const LuminanceLevel& level = views[layer].image->luminance(0);
-    pictures.write(layer, 0, 0, 0, level.width + 2, level.height + 2, level.values.data(), level.stride);
+    const Array2d<std::uint16_t> pixels = level.pixels_with_border();
+    pictures.write(layer, 0, 0, 0, pixels.width(), pixels.height(), pixels.data(), pixels.width());
   }
   gpu::Program program(*device, "sampling", {{"LINEAR", linear ? "1" : "0"}}, kSampling);
   const int turns = planes * 4;  // as many as there are planes and window levels

@@ -8,6 +8,7 @@
 
 #include "sweep/backend.h"
 #include "sweep/heights.h"
+#include "sweep/plane_sweep.h"
 #include "sweep/smoothing.h"
 #include "sweep/synthetic_views.h"
 
@@ -77,6 +78,57 @@ void semi_global_smoothing(benchmark::State& state) {
       kSmoothingPaths * cells * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(semi_global_smoothing)->Unit(benchmark::kMillisecond);
+
+// A tile of 512 x 512 cells, 8 views, 201 planes, of a gentle saddle.
+const test::SyntheticProblem& whole_tile() {
+  static const test::SyntheticProblem problem = [] {
+    test::SyntheticProblem p = test::ring_of_views(8, test::small_camera(1200, 1280, 960),
+                                                   [](double x, double y) { return 0.03 * (x * x - y * y); });
+    test::set_grid(p.problem, 512, 0.025, 0.03, -3, 3);
+    return p;
+  }();
+  return problem;
+}
+
+double share_right(const SweepProblem& problem, const MatchResult& matches, double tolerance_m) {
+  const Heights heights = heights_from_matches(problem, matches);
+  double right = 0;
+  for (int row = 0; row < problem.grid.height; ++row) {
+    for (int column = 0; column < problem.grid.width; ++column) {
+      const Vec2d p = problem.grid.cell_center(column, row);
+      right += std::abs(heights.height_m(column, row) - 0.03 * (p.x * p.x - p.y * p.y)) < tolerance_m;
+    }
+  }
+  return right / static_cast<double>(problem.grid.width * problem.grid.height);
+}
+
+// The classic sweep: sums of absolute differences over windows of 1x1 to 8x8, all planes, no smoothing.
+void tile_exhaustive_sad(benchmark::State& state) {
+  SweepProblem problem = whole_tile().problem;
+  problem.options.window_level_max = 3;
+  problem.options.aggregation = Aggregation::all_views;
+  problem.options.smoothing = Smoothing::none;
+  SerialExecutor serial;
+  MatchResult matches;
+  for (auto _ : state) matches = match_cell_by_cell(problem, Backend::cpu, serial);
+  if (share_right(problem, matches, 0.1) < 0.9) state.SkipWithError("fewer than 90 % of the heights are right");
+  set_rate(state, sample_count(problem));
+}
+BENCHMARK(tile_exhaustive_sad)->Unit(benchmark::kMillisecond);
+
+// The default costs and smoothing, searched everywhere (0) and from coarse to fine.
+void tile_search(benchmark::State& state) {
+  SweepProblem problem = whole_tile().problem;
+  problem.options.coarse_levels = static_cast<int>(state.range(0));
+  SerialExecutor serial;
+  Search found;
+  for (auto _ : state) found = search(problem, Backend::cpu, serial);
+  const double right = share_right(problem, found.matches, 0.1);
+  if (right < 0.98) state.SkipWithError("fewer than 98 % of the heights are right");
+  state.counters["right"] = right;
+  set_rate(state, found.samples);
+}
+BENCHMARK(tile_search)->Arg(0)->Arg(SweepOptions{}.coarse_levels)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include "sweep/bands.h"
 #include "sweep/best_planes.h"
+#include "sweep/cpu/best_planes_cpu.h"
 #include "sweep/cpu/match_cpu.h"
 #include "sweep/cpu/patches_cpu.h"
 #include "sweep/cpu/smoothing_cpu.h"
@@ -56,7 +57,9 @@ MatchResult match_in_bands(const SweepProblem& problem, Backend backend, Executo
   for (const Band& band : bands_within(problem)) {
     const SweepProblem part = part_of(problem, band);
     const CostVolume costs = match_costs(part, backend, executor);
-    MatchResult matches = best_planes(costs, smooth(part, costs, backend));
+    const CostVolume sums = smooth(part, costs, backend);
+    MatchResult matches =
+        backend == Backend::reference ? best_planes(costs, sums) : cpu::best_planes(costs, sums, executor);
     refine_fractions(part, costs, executor, matches);
     copy_core(matches, band, result);
   }

@@ -27,7 +27,7 @@ CostVolume::CostVolume(const SweepProblem& problem, Cost value)
       size += in_row;
     }
   }
-  values_.assign(size, kBeyondRange);
+  values_.assign(size + 2 * kVolumeLanes, kBeyondRange);
   for (int row = 0; row < height_; ++row)
     for (int column = 0; column < width_; ++column)
       for_each_stored_range(planes_at(column, row), [&](StoredRange range) {
@@ -38,16 +38,7 @@ CostVolume::CostVolume(const SweepProblem& problem, Cost value)
 std::size_t CostVolume::offset(int column, int row) const {
   const int bx = column / kBlockCells, by = row / kBlockCells;
   const auto within = static_cast<std::size_t>(column - bx * kBlockCells);
-  return row_offset_[row] + block_offset_(bx, by) + within * cell_size_(bx, by);
-}
-
-const Cost* CostVolume::find(int column, int row, int k) const {
-  int slot = 0;
-  for (const PlaneRange& range : planes_at(column, row).ranges()) {
-    if (k <= range.last) return k < range.first ? nullptr : cell(column, row) + slot + (k - range.first);
-    slot += sweep::padded_planes(range);
-  }
-  return nullptr;
+  return kVolumeLanes + row_offset_[row] + block_offset_(bx, by) + within * cell_size_(bx, by);
 }
 
 int CostVolume::padded_planes(const PlaneSet& planes) {

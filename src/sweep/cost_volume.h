@@ -54,11 +54,7 @@ class CostVolume {
   Cost* cell(int column, int row) { return values_.data() + offset(column, row); }
   const Cost* cell(int column, int row) const { return values_.data() + offset(column, row); }
 
-  // Value at plane k, with the values of the planes below and above it behind and before it as long as the same range
-  // has them; null where k is not stored.
-  const Cost* find(int column, int row, int k) const;
-
-  std::size_t bytes() const { return values_.size() * sizeof(Cost); }
+  std::size_t bytes() const { return (values_.size() - 2 * kVolumeLanes) * sizeof(Cost); }
 
   // Elements that one cell of a block with these planes takes.
   static int padded_planes(const PlaneSet& planes);
@@ -76,7 +72,7 @@ class CostVolume {
   Array2d<int> cell_size_;               // elements of each cell of a block
   Array2d<std::size_t> block_offset_;    // of the block's first cell within a row of cells
   std::vector<std::size_t> row_offset_;  // of each row of cells
-  std::vector<Cost> values_;
+  std::vector<Cost> values_;  // with a vector before the first and behind the last, for whoever reads neighbours
 };
 
 // Whole-number cost of a mean absolute difference in grey levels; infinity becomes kWorstCost.

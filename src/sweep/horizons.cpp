@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sweep/block_maxima.h"
 #include "sweep/sweep_problem.h"
 
 namespace skysweep::sweep {
@@ -14,10 +15,11 @@ constexpr float kNothing = -std::numeric_limits<float>::infinity();
 
 class Marcher {
  public:
-  Marcher(const Grid& grid, const HorizonQuestion& question) : grid_(grid), question_(question) {
-    for (const float z : question.surface_m)
-      if (!std::isnan(z)) highest_ = std::max(highest_, z - question.tolerance_m);
-  }
+  Marcher(const Grid& grid, const HorizonQuestion& question)
+      : grid_(grid),
+        question_(question),
+        maxima_(question.surface_m),
+        highest_(maxima_.highest() - question.tolerance_m) {}
 
   // One step moves one cell along the longer of the two grid axes; the nearest cell is looked at.
   float lowest_visible(Vec3d eye, int column, int row) const {
@@ -25,15 +27,25 @@ class Marcher {
     const double dx = (eye.x - cell.x) / grid_.cell_m, dy = (cell.y - eye.y) / grid_.cell_m;
     const double steps = std::max(std::abs(dx), std::abs(dy));
     double lowest = question_.lowest_m;
-    for (int i = 1 + question_.skipped_cells; i < steps; ++i) {
-      const double t = i / steps;
-      // A line from (cell, z) passes step i at z + t (eye.z - z): the z with which it just clears a height there.
-      const auto clearing = [&](double height) { return (height - t * eye.z) / (1 - t); };
-      if (clearing(highest_) <= lowest) break;  // it only rises from here
-      const int x = static_cast<int>(std::lround(column + t * dx)), y = static_cast<int>(std::lround(row + t * dy));
+    const BlockExit exit(dx / steps, dy / steps);
+    const double per_step = 1 / steps;
+    for (int i = 1 + question_.skipped_cells; i < steps;) {
+      const double t = i * per_step;
+      // Where the line from the lowest height known to be visible passes; from here on it only rises.
+      const double line = lowest + t * (eye.z - lowest);
+      if (highest_ <= line) break;
+      const int x = rounded(column + t * dx), y = rounded(row + t * dy);
       if (!question_.surface_m.contains(x, y)) break;
+      const double limit = line + question_.tolerance_m;
+      const int clear = maxima_.clear_cells(x, y, [limit](float highest) { return highest <= limit; });
+      if (clear > 0) {
+        i += exit.steps(clear, x, y);
+        continue;
+      }
       const float height = question_.surface_m(x, y);
-      if (!std::isnan(height)) lowest = std::max(lowest, clearing(height - question_.tolerance_m));
+      // A line from (cell, z) passes step i at z + t (eye.z - z): the z with which it just clears this height.
+      if (height > limit) lowest = (height - question_.tolerance_m - t * eye.z) / (1 - t);  // never of NaN
+      ++i;
     }
     return lowest > question_.lowest_m ? static_cast<float>(lowest) : kNothing;
   }
@@ -41,7 +53,8 @@ class Marcher {
  private:
   const Grid& grid_;
   const HorizonQuestion& question_;
-  double highest_ = -std::numeric_limits<double>::infinity();
+  BlockMaxima maxima_;
+  double highest_;
 };
 
 }  // namespace

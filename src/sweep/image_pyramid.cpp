@@ -46,14 +46,14 @@ LuminanceLevel prepared(Array2d<std::uint16_t> inner, Normalization normalizatio
   else if (normalization.radius_px > 0)
     normalize_locally(inner, normalization.radius_px);
   LuminanceLevel level{inner.width(), inner.height(), inner.width() + 2, {}};
-  // One element more than the last pixel pair needs, so that pairs can be read as one 32-bit word anywhere.
-  level.values.resize(static_cast<std::size_t>(level.stride) * (level.height + 2) + 1);
+  level.pairs.resize(static_cast<std::size_t>(level.stride) * (level.height + 2));
   for (int y = -1; y <= level.height; ++y) {
     const std::uint16_t* from = inner.row(std::clamp(y, 0, level.height - 1));
-    std::uint16_t* to = level.values.data() + static_cast<std::size_t>(y + 1) * level.stride;
-    to[0] = from[0];
-    std::copy(from, from + level.width, to + 1);
-    to[level.width + 1] = from[level.width - 1];
+    const std::uint16_t* below = inner.row(std::clamp(y + 1, 0, level.height - 1));
+    std::uint32_t* to = level.pairs.data() + static_cast<std::size_t>(y + 1) * level.stride;
+    for (int x = 0; x < level.width; ++x) to[x + 1] = from[x] | static_cast<std::uint32_t>(below[x]) << 16;
+    to[0] = to[1];
+    to[level.width + 1] = to[level.width];
   }
   return level;
 }
@@ -64,6 +64,12 @@ std::uint64_t next_id() {
 }
 
 }  // namespace
+
+Array2d<std::uint16_t> LuminanceLevel::pixels_with_border() const {
+  Array2d<std::uint16_t> pixels(width + 2, height + 2);
+  std::transform(pairs.begin(), pairs.end(), pixels.begin(), [](std::uint32_t pair) { return pair & 0xFFFF; });
+  return pixels;
+}
 
 ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization) : id_(next_id()) {
   SKY_CHECK(!photograph.empty());
@@ -85,7 +91,7 @@ ImagePyramid::ImagePyramid(Array2d<Rgb8> photograph, Normalization normalization
 std::size_t ImagePyramid::bytes_for(int width_px, int height_px) {
   std::size_t bytes = 0;
   for (int w = width_px, h = height_px;; w = half(w), h = half(h)) {
-    bytes += sizeof(std::uint16_t) * (w + 2) * (h + 2) + sizeof(Rgb8) * w * h;
+    bytes += sizeof(std::uint32_t) * (w + 2) * (h + 2) + sizeof(Rgb8) * w * h;
     if (w <= 1 && h <= 1) return bytes;
   }
 }

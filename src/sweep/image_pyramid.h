@@ -34,23 +34,28 @@ constexpr double mix(double a, double b, double weight) { return a + weight * (b
 
 // Luminance in units of 1/256 grey level (Y = 0.212671 R + 0.715160 G + 0.072169 B), with a border
 // of one repeated pixel on every side, so that bilinear sampling anywhere on the photograph reads inside the array.
+// Every element holds a pixel and, in its high half, the one below it: two neighbouring elements are the four pixels of
+// a bilinear sample, read as one 64-bit word.
 struct LuminanceLevel {
   int width = 0;  // without the border
   int height = 0;
   int stride = 0;  // elements from one row to the next
-  std::vector<std::uint16_t> values;
+  std::vector<std::uint32_t> pairs;
 
   // Pixel with 0-based indices; -1 and width (height) address the border.
   std::uint16_t at(int column, int row) const {
-    return values[static_cast<std::size_t>(row + 1) * stride + (column + 1)];
+    return static_cast<std::uint16_t>(pairs[static_cast<std::size_t>(row + 1) * stride + (column + 1)]);
   }
+  // The pixels alone, border and all: (width + 2) x (height + 2).
+  Array2d<std::uint16_t> pixels_with_border() const;
 
   // Bilinear, grey levels, double precision. `position` in this level's pixels, on the image.
   double sample(Vec2d position) const {
     const Tap x = tap_at(position.x, width), y = tap_at(position.y, height);
-    const std::uint16_t* upper = values.data() + static_cast<std::size_t>(y.index + 1) * stride + (x.index + 1);
-    const std::uint16_t* lower = upper + stride;
-    return mix(mix(upper[0], upper[1], x.weight), mix(lower[0], lower[1], x.weight), y.weight) / kLuminanceScale;
+    const std::uint32_t* pair = pairs.data() + static_cast<std::size_t>(y.index + 1) * stride + (x.index + 1);
+    const std::uint32_t left = pair[0], right = pair[1];
+    return mix(mix(left & 0xFFFF, right & 0xFFFF, x.weight), mix(left >> 16, right >> 16, x.weight), y.weight) /
+           kLuminanceScale;
   }
 };
 

@@ -10,10 +10,6 @@
 namespace skysweep::sweep {
 namespace {
 
-constexpr double kDeviation = 20;  // grey levels that one standard deviation becomes
-constexpr double kNoiseFloor = 3;  // grey levels
-constexpr double kMiddle = 128;
-
 // Column sums of the rows within the window of the current row: whole numbers, so that sliding them is exact.
 struct ColumnSums {
   explicit ColumnSums(int width) : sum(width, 0), square(width, 0) {}
@@ -32,7 +28,7 @@ struct ColumnSums {
 std::uint16_t normalized(double value, double mean, double variance) {
   const double deviation =
       std::sqrt(std::max(0.0, variance) + kNoiseFloor * kNoiseFloor * kLuminanceScale * kLuminanceScale);
-  const double grey = std::clamp(kMiddle + kDeviation * (value - mean) / deviation, 0.0, 255.0);
+  const double grey = std::clamp(kNormalizedMean + kNormalizedDeviation * (value - mean) / deviation, 0.0, 255.0);
   return static_cast<std::uint16_t>(grey * kLuminanceScale + 0.5);
 }
 

@@ -13,6 +13,9 @@ namespace skysweep::sweep {
 // and out in units of 1/kLuminanceScale grey level.
 void normalize_locally(Array2d<std::uint16_t>& luminance, int radius_px);
 
+constexpr double kNormalizedMean = 128, kNormalizedDeviation = 20;  // grey levels
+constexpr double kNoiseFloor = 3;                                   // grey levels
+
 // A value (stored units, as are mean and variance) with the mean at 128 and the deviation at 20 grey levels, in stored
 // units; deviations are never taken for less than noise.
 std::uint16_t normalized(double value, double mean, double variance);

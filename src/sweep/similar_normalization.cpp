@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once for every instruction set by Highway's foreach_target. Whole numbers: the same on each of them.
+// Compiled once for every instruction set by Highway's foreach_target. The same on each of them: whole numbers, then
+// the roundings of IEEE 754.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sweep/similar_normalization.cpp"
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
+
+#include "sweep/image_pyramid.h"
+#include "sweep/local_normalization.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace skysweep::sweep::HWY_NAMESPACE {
@@ -30,6 +34,27 @@ void add_similar(const std::uint16_t* HWY_RESTRICT middle, const std::uint16_t* 
   }
 }
 
+// `normalized` of a whole row of middle pixels, rounding for rounding.
+void normalize_row(const std::int32_t* HWY_RESTRICT counts, const std::int32_t* HWY_RESTRICT sums,
+                   const std::int32_t* HWY_RESTRICT squares, int width, std::uint16_t* HWY_RESTRICT out) {
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<std::int32_t, decltype(d)> i32;
+  const hn::Rebind<std::uint16_t, decltype(d)> u16;
+  constexpr double kFloor = kNoiseFloor * kNoiseFloor * kLuminanceScale * kLuminanceScale;
+  const auto zero = hn::Zero(d);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d))) {
+    const auto count = hn::PromoteTo(d, hn::LoadU(i32, counts + x));
+    const auto mean = hn::Div(hn::PromoteTo(d, hn::LoadU(i32, sums + x)), count);
+    const auto square = hn::Mul(hn::Set(d, 256.0), hn::PromoteTo(d, hn::LoadU(i32, squares + x)));
+    const auto variance = hn::Sub(hn::Div(square, count), hn::Mul(mean, mean));
+    const auto deviation = hn::Sqrt(hn::Add(hn::Max(zero, variance), hn::Set(d, kFloor)));
+    const auto scaled = hn::Div(hn::Mul(hn::Set(d, kNormalizedDeviation), hn::Sub(zero, mean)), deviation);
+    const auto grey = hn::Min(hn::Max(hn::Add(hn::Set(d, kNormalizedMean), scaled), zero), hn::Set(d, 255.0));
+    const auto stored = hn::Add(hn::Mul(grey, hn::Set(d, kLuminanceScale)), hn::Set(d, 0.5));
+    hn::StoreU(hn::DemoteTo(u16, hn::DemoteTo(i32, stored)), u16, out + x);
+  }
+}
+
 }  // namespace skysweep::sweep::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -44,6 +69,7 @@ HWY_AFTER_NAMESPACE();
 namespace skysweep::sweep {
 
 HWY_EXPORT(add_similar);
+HWY_EXPORT(normalize_row);
 
 namespace {
 
@@ -69,16 +95,15 @@ void normalize_similar(Array2d<std::uint16_t>& luminance, int radius_px, int tol
   const int width = luminance.width();
   const Array2d<std::uint16_t> source = padded(luminance, radius_px);
   std::vector<std::int32_t> counts(width + kSlack), sums(width + kSlack), squares(width + kSlack);
+  std::vector<std::uint16_t> normalized_row(width + kSlack);
   for (int y = 0; y < luminance.height(); ++y) {
     for (auto* values : {&counts, &sums, &squares}) std::fill(values->begin(), values->end(), 0);
     for (int dy = -radius_px; dy <= radius_px; ++dy)
       for (int dx = -radius_px; dx <= radius_px; ++dx) HWY_DYNAMIC_DISPATCH(add_similar)
     (source.row(y + radius_px) + radius_px, source.row(y + radius_px + dy) + radius_px + dx, width, tolerance,
      counts.data(), sums.data(), squares.data());
-    for (int x = 0; x < width; ++x) {
-      const double mean = static_cast<double>(sums[x]) / counts[x];  // above the middle pixel, which is 0 here
-      luminance(x, y) = normalized(0, mean, 256.0 * squares[x] / counts[x] - mean * mean);
-    }
+    HWY_DYNAMIC_DISPATCH(normalize_row)(counts.data(), sums.data(), squares.data(), width, normalized_row.data());
+    std::copy_n(normalized_row.begin(), width, luminance.row(y));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/array2d.h"
 #include "core/vec.h"
+#include "sweep/block_maxima.h"
 #include "sweep/sweep_problem.h"
 
 namespace skysweep::sweep {
@@ -22,9 +23,7 @@ class SurfaceVisibility {
   Grid grid_;
   const Array2d<float>& height_m_;
   double tolerance_m_;
-  // Highest cell of each square block of 2^kCoarse (2^kFine) cells: lets the ray jump.
-  static constexpr int kCoarse = 4, kFine = 2;
-  Array2d<float> coarse_max_, fine_max_;
+  BlockMaxima maxima_;
   float highest_;
 };
 

@@ -44,17 +44,20 @@ struct SegmentDifferences {
   alignas(64) std::array<float, kMaxViews * kSegmentCells> view;
 };
 
-HWY_INLINE void take_differences(const SegmentSamples& samples, SegmentDifferences& out) {
+// As many levels as kLevels says, or as there are if it is 0.
+template <int kLevels>
+HWY_INLINE void take_differences_of(const SegmentSamples& samples, SegmentDifferences& out) {
   const F f;
+  const int levels = kLevels > 0 ? kLevels : samples.levels;
   for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
     for (int k = 0; k < samples.count; ++k) hn::Store(hn::Zero(f), f, out.view.data() + k * kSegmentCells + i);
-    float* pair = out.pair.data() + i;
+    float* HWY_RESTRICT pair = out.pair.data() + i;
     for (int k = 0; k + 1 < samples.count; ++k) {
-      float* own = out.view.data() + k * kSegmentCells + i;
+      float* HWY_RESTRICT own = out.view.data() + k * kSegmentCells + i;
       VF total = hn::Load(f, own);
       for (int j = k + 1; j < samples.count; ++j, pair += kSegmentCells) {
         VF sum = hn::Zero(f);
-        for (int level = 0; level < samples.levels; ++level)
+        for (int level = 0; level < levels; ++level)
           sum = hn::Add(sum, hn::AbsDiff(hn::Load(f, samples.luminance_of(level, k) + i),
                                          hn::Load(f, samples.luminance_of(level, j) + i)));
         if (!samples.all)
@@ -66,6 +69,15 @@ HWY_INLINE void take_differences(const SegmentSamples& samples, SegmentDifferenc
       }
       hn::Store(total, f, own);
     }
+  }
+}
+
+HWY_INLINE void take_differences(const SegmentSamples& samples, SegmentDifferences& out) {
+  switch (samples.levels) {
+    case 1: return take_differences_of<1>(samples, out);
+    case 2: return take_differences_of<2>(samples, out);
+    case 4: return take_differences_of<4>(samples, out);
+    default: return take_differences_of<0>(samples, out);
   }
 }
 

@@ -22,6 +22,16 @@ using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 using VI = hn::Vec<I>;
 
+// What was stored before is loaded from memory after: lanes taken one by one come cheaper that way than by the shuffles
+// with which compilers would save the store.
+template <typename T>
+HWY_INLINE const T* reloaded(const T* stored) {
+#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
+  asm volatile("" : "+r"(stored) : : "memory");
+#endif
+  return stored;
+}
+
 }  // namespace skysweep::sweep::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

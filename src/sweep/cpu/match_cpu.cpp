@@ -20,6 +20,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Scratch of one run: large, so made once for it.
 struct Workspace {
   std::array<Knots, kMaxViews> knots;
+  std::array<int, kMaxViews> near;  // views that may show a cell of the run at the plane in work, ascending
+  int near_count = 0;
   std::array<Positions, kMaxViews> positions;
   std::array<const ViewKernel*, kMaxViews> active;  // views that show any cell of the segment
   SegmentSamples samples;
@@ -62,29 +64,43 @@ HWY_INLINE void price_hidden(const SweepOptions& options, Workspace& work) {
   }
 }
 
+// Projects the knots of the run at one plane, and leaves out the views that show nothing of it.
+HWY_INLINE void find_near_views(const RunJob& job, double z, Workspace& work) {
+  work.near_count = 0;
+  for (std::size_t v = 0; v < job.views->size(); ++v) {
+    const ViewKernel& view = (*job.views)[v];
+    Knots& knots = work.knots[v];
+    const bool all = project_knots(view, job.first_cell, job.cell_m, z, knots);
+    if (!all || (may_reach(knots.u, view.width) && may_reach(knots.v, view.height)))
+      work.near[work.near_count++] = static_cast<int>(v);
+  }
+}
+
 // Finds the views that show a segment at one plane, and where.
 HWY_INLINE void find_positions(const RunJob& job, int segment, double z, Workspace& work) {
   SegmentSamples& samples = work.samples;
   samples.count = 0;
   samples.all = true;
   work.shown_by.fill(0);
-  for (std::size_t v = 0; v < job.views->size(); ++v) {
-    const ViewKernel& view = (*job.views)[v];
+  for (int i = 0; i < work.near_count; ++i) {
+    const int index = work.near[i];
+    const ViewKernel& view = (*job.views)[index];
     Positions& positions = work.positions[samples.count];
     bool any = false, all = true;
-    if (!follows_polynomial(work.knots[v].u.data() + segment) ||
-        !follows_polynomial(work.knots[v].v.data() + segment)) {
+    Segment u, v;
+    if (polynomial_through(work.knots[index].u.data() + segment, u) &&
+        polynomial_through(work.knots[index].v.data() + segment, v)) {
+      any = positions_of(view, u, v, positions, all);
+    } else {
       const Vec2d first{job.first_cell.x + segment * kSegmentCells * job.cell_m, job.first_cell.y};
       any = positions_one_by_one(view, first, job.cell_m, z, positions);
       all = false;
-    } else {
-      any = positions_of(view, work.knots[v], segment, positions, all);
     }
     if (!any) continue;
     if (job.lowest_visible) {
       add_shown(positions, work);
-      if (!keep_visible(job.lowest_visible + v * kRunCells + segment * kSegmentCells, static_cast<float>(z), positions,
-                        all))
+      if (!keep_visible(job.lowest_visible + index * kRunCells + segment * kSegmentCells, static_cast<float>(z),
+                        positions, all))
         continue;
     }
     samples.all = samples.all && all;
@@ -143,8 +159,7 @@ HWY_INLINE void for_each_segment(const RunJob& job, Take take) {
     for (int segment = 0; segment < kSegmentsPerRun; ++segment) wanted[segment] = cursors[segment].reaches(k);
     if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) continue;
     const double z = k * job.dz_m;
-    for (std::size_t v = 0; v < job.views->size(); ++v)
-      project_knots((*job.views)[v], job.first_cell, job.cell_m, z, work.knots[v]);
+    find_near_views(job, z, work);
     for (int segment = 0; segment < kSegmentsPerRun; ++segment) {
       if (!wanted[segment]) continue;
       segment_costs(job, segment, z, work);
@@ -213,7 +228,7 @@ void fill_run(const RunJob& job, const std::array<Cost*, kSegmentsPerRun>& cells
 double sample_everywhere(const ImagePyramid& image, long long samples) {
   const F f;
   const LuminanceLevel& luminance = image.luminance(0);
-  const LevelKernel level{luminance.values.data(), luminance.stride, luminance.width, luminance.height, 1};
+  const LevelKernel level{luminance.pairs.data(), luminance.stride, luminance.width, luminance.height, 1};
   Positions positions;
   for (int i = 0; i < kSegmentCells; ++i) {
     positions.u[i] = 0.9f * static_cast<float>(i) + 0.7f;

@@ -82,12 +82,13 @@ bool sample_region(const BlockJob& job, const ViewKernel& view, double z, float*
     for (int segment = 0; segment < 2; ++segment) {
       const int at = r * kRegionSide + segment * kSegmentCells;
       bool shown = false, segment_all = true;
-      if (!follows_polynomial(knots.u.data() + segment) || !follows_polynomial(knots.v.data() + segment)) {
+      Segment u, v;
+      if (polynomial_through(knots.u.data() + segment, u) && polynomial_through(knots.v.data() + segment, v)) {
+        shown = positions_of(view, u, v, positions, segment_all);
+      } else {
         shown = positions_one_by_one(view, {first.x + segment * kSegmentCells * problem.grid.cell_m, first.y},
                                      problem.grid.cell_m, z, positions);
         segment_all = false;
-      } else {
-        shown = positions_of(view, knots, segment, positions, segment_all);
       }
       all = all && shown && segment_all;
       if (!shown) {

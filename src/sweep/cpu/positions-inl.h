@@ -28,7 +28,8 @@ struct Knots {
   alignas(64) std::array<double, kKnots + 8> u, v;
 };
 
-HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double cell_m, double z, Knots& knots) {
+// Returns whether the camera can show the points of all knots.
+HWY_INLINE bool project_knots(const ViewKernel& view, Vec2d first_cell, double cell_m, double z, Knots& knots) {
   const D d;
   const Mat3d& r = view.cam_from_world;
   const double dy = first_cell.y - view.center.y, dz = z - view.center.z;
@@ -37,6 +38,7 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
   const auto one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
   const auto nan = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
   const camera::Distortion& lens = view.distortion;
+  bool all = true;
   for (int k = 0; k < kKnots; k += static_cast<int>(hn::Lanes(d))) {
     const auto dx =
         hn::MulAdd(hn::Iota(d, static_cast<double>(k)), coefficient(kSegmentCells * cell_m), coefficient(dx0));
@@ -60,7 +62,25 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
     const auto v = hn::MulAdd(distorted_y, coefficient(view.fy), coefficient(view.cy));
     hn::Store(hn::IfThenElse(usable, u, nan), d, knots.u.data() + k);
     hn::Store(hn::IfThenElse(usable, v, nan), d, knots.v.data() + k);
+    all = all && hn::AllTrue(d, usable);
   }
+  return all;
+}
+
+// Whether the polynomials through knots may reach pixels 0..size somewhere between those of the run: between the two
+// knots in the middle of six, one leaves the middle of their range by less than 1.5 times half of it (the sum of the
+// magnitudes of Lagrange's basis polynomials is below 1.4 there). The knots must be numbers.
+HWY_INLINE bool may_reach(const std::array<double, kKnots + 8>& knots, double size) {
+  const hn::CappedTag<double, kKnots> d;
+  static_assert(kKnots % hn::MaxLanes(d) == 0);
+  auto low = hn::Load(d, knots.data()), high = low;
+  for (int k = static_cast<int>(hn::MaxLanes(d)); k < kKnots; k += static_cast<int>(hn::MaxLanes(d))) {
+    low = hn::Min(low, hn::Load(d, knots.data() + k));
+    high = hn::Max(high, hn::Load(d, knots.data() + k));
+  }
+  const double least = hn::GetLane(hn::MinOfLanes(d, low)), most = hn::GetLane(hn::MaxOfLanes(d, high));
+  const double reach = 0.25 * (most - least);
+  return most + reach >= -1 && least - reach <= size + 1;
 }
 
 // One pixel coordinate along a segment: base + c[0] + t (c[1] + t (... c[5])), t = 0..1 over kSegmentCells cells, the
@@ -68,12 +88,13 @@ HWY_INLINE void project_knots(const ViewKernel& view, Vec2d first_cell, double c
 // before going to single precision keeps positions good to a few millionths of a pixel.
 struct Segment {
   int base = 0;
-  std::array<float, 6> c;
+  alignas(32) std::array<float, 8> c;  // the last two are nothing
 };
 
-// Rows: coefficients of t^j over 120; columns: knots at t = -2..3 (inverse of the Vandermonde matrix).
-constexpr double kQuintic[6][6] = {{0, 0, 120, 0, 0, 0},      {6, -60, -40, 120, -30, 4}, {-5, 80, -150, 80, -5, 0},
-                                   {-5, -5, 50, -70, 35, -5}, {5, -20, 30, -20, 5, 0},    {-1, 5, -10, 10, -5, 1}};
+// Columns: what a knot at t = -2..3 adds to the coefficients of t^0..t^5 times 120 (inverse of the Vandermonde matrix).
+alignas(64) constexpr double kQuintic[6][8] = {{0, 6, -5, -5, 5, -1},         {0, -60, 80, -5, -20, 5},
+                                               {120, -40, -150, 50, 30, -10}, {0, 120, 80, -70, -20, 10},
+                                               {0, -30, -5, 35, 5, -5},       {0, 4, 0, -5, 0, 1}};
 
 // Near the plane of the centre of projection 1/depth, and beyond the fold the lens, leave every polynomial behind: a
 // segment is trusted to it only while its highest term is so small (the error is below 0.6 of it as long as the sixth
@@ -82,26 +103,31 @@ constexpr double kLargestFifthTerm = 1.0 / 1024;  // pixels
 constexpr double kLargestSlope = 4096;            // pixels per segment
 constexpr double kFarthestPixel = 1 << 22;        // whole pixels that single precision and 32 bits hold with ease
 
-// Whether polynomial_through is good to a thousandth of a pixel for these six knots. False for NaN and infinities.
-HWY_INLINE bool follows_polynomial(const double* knot) {
-  double slope = 0, fifth = 0;
-  for (int k = 0; k < 6; ++k) {
-    slope += kQuintic[1][k] * knot[k];
-    fifth += kQuintic[5][k] * knot[k];
-  }
-  return std::abs(knot[2]) < kFarthestPixel && std::abs(slope) < 120 * kLargestSlope &&
-         std::abs(fifth) < 120 * kLargestFifthTerm;
-}
-
-HWY_INLINE Segment polynomial_through(const double* knot) {
+// The polynomial through six knots; false, and nothing written, where it is not good to a thousandth of a pixel, and
+// for NaN and infinities.
+HWY_INLINE bool polynomial_through(const double* HWY_RESTRICT knot, Segment& out) {
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<float, decltype(d)> f;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
+  if (!(std::abs(knot[2]) < kFarthestPixel)) return false;
   const double base = std::floor(knot[2]);
-  Segment out{static_cast<int>(base), {static_cast<float>(knot[2] - base)}};
-  for (int j = 1; j < 6; ++j) {
-    double sum = 0;
-    for (int k = 0; k < 6; ++k) sum += kQuintic[j][k] * knot[k];
-    out.c[j] = static_cast<float>(sum / 120);
+  alignas(64) constexpr double kLargest[8] = {
+      kFarthestPixel, kLargestSlope, kFarthestPixel, kFarthestPixel, kFarthestPixel, kLargestFifthTerm, 1, 1};
+  bool good = true;
+  Segment made;
+  for (int j = 0; j < 8; j += kLanes) {
+    auto sum = hn::Mul(hn::Load(d, kQuintic[0] + j), hn::Set(d, knot[0]));
+    for (int k = 1; k < 6; ++k) sum = hn::MulAdd(hn::Load(d, kQuintic[k] + j), hn::Set(d, knot[k]), sum);
+    // The base changes the first coefficient alone.
+    const auto first = j == 0 ? hn::IfThenElseZero(hn::FirstN(d, 1), hn::Set(d, base)) : hn::Zero(d);
+    sum = hn::MulSub(sum, hn::Set(d, 1.0 / 120), first);
+    good = good && hn::AllTrue(d, hn::Lt(hn::Abs(sum), hn::Load(d, kLargest + j)));
+    hn::Store(hn::DemoteTo(f, sum), f, made.c.data() + j);
   }
-  return out;
+  if (!good) return false;
+  made.base = static_cast<int>(base);
+  out = made;
+  return true;
 }
 
 // Where one view shows the cells of a segment, relative to whole pixels; and which cells it shows at all.
@@ -132,9 +158,8 @@ inline HWY_NOINLINE bool positions_one_by_one(const ViewKernel& view, Vec2d firs
 }
 
 // Returns whether the view shows any of the cells; `all` becomes false if it does not show all of them.
-HWY_INLINE bool positions_of(const ViewKernel& view, const Knots& knots, int segment, Positions& out, bool& all) {
+HWY_INLINE bool positions_of(const ViewKernel& view, const Segment& u, const Segment& v, Positions& out, bool& all) {
   const F f;
-  const Segment u = polynomial_through(knots.u.data() + segment), v = polynomial_through(knots.v.data() + segment);
   out.base_u = u.base;
   out.base_v = v.base;
   // 0 <= base + position <= size, in numbers small enough to be exact.
@@ -145,8 +170,9 @@ HWY_INLINE bool positions_of(const ViewKernel& view, const Knots& knots, int seg
   for (int i = 0; i < kSegmentCells; i += static_cast<int>(hn::Lanes(f))) {
     const VF t = hn::Mul(hn::Iota(f, static_cast<float>(i)), hn::Set(f, 1.0f / kSegmentCells));
     const auto evaluate = [&](const Segment& s) {
-      VF sum = hn::Set(f, s.c[5]);
-      for (int j = 4; j >= 0; --j) sum = hn::MulAdd(t, sum, hn::Set(f, s.c[j]));
+      const float* c = reloaded(s.c.data());
+      VF sum = hn::Set(f, c[5]);
+      for (int j = 4; j >= 0; --j) sum = hn::MulAdd(t, sum, hn::Set(f, c[j]));
       return sum;
     };
     const VF pu = evaluate(u), pv = evaluate(v);

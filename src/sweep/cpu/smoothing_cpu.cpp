@@ -14,36 +14,43 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using C = hn::CappedTag<Cost, kVolumeLanes>;
 
-// Path costs of one cell from those of the cell before, for all four directions of a pass, added to the sums.
+// Path costs of one cell from those of the cell before, for all four directions of a pass, added to the sums. Ranges
+// are gone through here: what is compiled for all machines alike (for_each_stored_range) takes no vectors in.
 void continue_paths(const CellUpdate& cell) {
   const C d;
   const auto small = hn::Set(d, cell.small_penalty), beyond = hn::Set(d, kBeyondRange);
+  std::array<Cost, kPathsPerPass> jump;
+  alignas(64) std::array<std::array<Cost, kVolumeLanes>, kPathsPerPass> running_least;
   for (int direction = 0; direction < kPathsPerPass; ++direction) {
-    const Cost* HWY_RESTRICT before = cell.before[direction];
-    const auto least = hn::Set(d, before ? cell.least_before[direction] : Cost{0});
-    const auto jump = hn::Add(least, hn::Set(d, cell.large_penalty[direction]));
-    auto running_least = beyond;
-    for_each_stored_range(*cell.planes, [&](StoredRange range) HWY_ATTR {
-      const int padded = padded_planes(range.planes);
-      const std::ptrdiff_t plane = range.planes.first - cell.lowest_plane;
-      for (int i = 0; i < padded; i += static_cast<int>(hn::Lanes(d))) {
-        const std::ptrdiff_t k = plane + i;
-        auto value = hn::LoadU(d, cell.costs + range.slot + i);
-        if (before) {
+    jump[direction] = cell.least_before[direction] + cell.large_penalty[direction];
+    hn::Store(beyond, d, running_least[direction].data());
+  }
+  int slot = 0;
+  for (const PlaneRange& range : cell.planes->ranges()) {
+    const int padded = padded_planes(range);
+    for (int i = 0; i < padded; i += static_cast<int>(hn::Lanes(d))) {
+      const std::ptrdiff_t k = range.first - cell.lowest_plane + i;
+      const auto cost = hn::LoadU(d, cell.costs + slot + i);
+      auto sum = hn::LoadU(d, cell.sums + slot + i);
+      for (int direction = 0; direction < kPathsPerPass; ++direction) {
+        auto value = cost;
+        if (const Cost* HWY_RESTRICT before = cell.before[direction]) {
           const auto neighbour = hn::Min(hn::LoadU(d, before + k - 1), hn::LoadU(d, before + k + 1));
-          const auto best = hn::Min(hn::Min(hn::LoadU(d, before + k), hn::Add(neighbour, small)), jump);
-          value = hn::Min(hn::Add(value, hn::Sub(best, least)), beyond);
+          const auto step = hn::Min(hn::LoadU(d, before + k), hn::Add(neighbour, small));
+          const auto best = hn::Min(step, hn::Set(d, jump[direction]));
+          value = hn::Min(hn::Add(value, hn::Sub(best, hn::Set(d, cell.least_before[direction]))), beyond);
         }
         hn::StoreU(value, d, cell.now[direction] + k);
-        Cost* sum = cell.sums + range.slot + i;
-        hn::StoreU(hn::Min(hn::Add(hn::LoadU(d, sum), value), beyond), d, sum);
-        running_least = hn::Min(running_least, value);
+        sum = hn::Min(hn::Add(sum, value), beyond);
+        Cost* least = running_least[direction].data();
+        hn::Store(hn::Min(hn::Load(d, least), value), d, least);
       }
-    });
-    alignas(64) std::array<Cost, kVolumeLanes> lanes;
-    hn::Store(running_least, d, lanes.data());
-    cell.least_now[direction] = *std::min_element(lanes.begin(), lanes.begin() + hn::Lanes(d));
+      hn::StoreU(sum, d, cell.sums + slot + i);
+    }
+    slot += padded;
   }
+  for (int direction = 0; direction < kPathsPerPass; ++direction)
+    cell.least_now[direction] = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, running_least[direction].data())));
 }
 
 }  // namespace skysweep::sweep::cpu::HWY_NAMESPACE

@@ -24,7 +24,7 @@ ViewKernel make_view_kernel(const View& view, const SweepOptions& options) {
   for (int window = options.window_level_min; window <= options.window_level_max; ++window) {
     const int level = sampling_level(view, window);
     const LuminanceLevel& image = view.image->luminance(level);
-    kernel.levels[window - options.window_level_min] = {image.values.data(), image.stride, image.width, image.height,
+    kernel.levels[window - options.window_level_min] = {image.pairs.data(), image.stride, image.width, image.height,
                                                         std::ldexp(1.0f, -level)};
   }
   return kernel;

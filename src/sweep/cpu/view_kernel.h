@@ -12,13 +12,13 @@
 namespace skysweep::sweep::cpu {
 
 constexpr int kSegmentCells = kBlockCells;  // cells between two knots of the projection: those of one block
-constexpr int kSegmentsPerRun = 4;          // segments that share their knots
+constexpr int kSegmentsPerRun = 3;          // segments that share their knots: with these, eight knots, a vector
 constexpr int kRunCells = kSegmentsPerRun * kSegmentCells;
 constexpr int kKnotsBefore = 2;              // knots to the left of the first segment
 constexpr int kKnots = kSegmentsPerRun + 5;  // and three to the right of the last one's first
 
 struct LevelKernel {
-  const std::uint16_t* pixels = nullptr;  // LuminanceLevel::values
+  const std::uint32_t* pairs = nullptr;  // LuminanceLevel::pairs
   int stride = 0;
   int width = 0, height = 0;
   float scale = 1;  // 2^-level

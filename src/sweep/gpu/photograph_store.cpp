@@ -92,9 +92,9 @@ int PhotographStore::free_layer() const {
 void PhotographStore::upload(const ImagePyramid& image, int layer) {
   const LayerLayout layout = layer_layout(image);
   for (int level = 0; level < image.levels(); ++level) {
-    const LuminanceLevel& from = image.luminance(level);
-    texture_->write(layer, 0, layout.levels[level].x - kBorder, layout.levels[level].y - kBorder,
-                    from.width + 2 * kBorder, from.height + 2 * kBorder, from.values.data(), from.stride);
+    const Array2d<std::uint16_t> pixels = image.luminance(level).pixels_with_border();
+    texture_->write(layer, 0, layout.levels[level].x - kBorder, layout.levels[level].y - kBorder, pixels.width(),
+                    pixels.height(), pixels.data(), pixels.width());
   }
   ++uploads_;
 }
