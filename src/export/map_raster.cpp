@@ -184,8 +184,8 @@ void require_sensible(const MapRequest& request, bool resampled) {
     throw usage_error("--cell must be a positive number, the side of a cell in units of the output's CRS.");
   if (request.resampling && !resampled)
     throw usage_error("--resampling has no effect on the map's own cells: leave it away, or give --cell or --crs.");
-  if (request.layer == Layer::mask && request.resampling.value_or(raster::Resampling::nearest) !=
-                                          raster::Resampling::nearest)
+  if (request.layer == Layer::mask &&
+      request.resampling.value_or(raster::Resampling::nearest) != raster::Resampling::nearest)
     throw usage_error("--resampling of the mask is nearest: its codes have no mean.");
   if (request.relief_span_m && request.layer != Layer::relief)
     throw usage_error("--relief-range has an effect with --layer relief only; leave it away.");

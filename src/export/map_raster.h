@@ -46,7 +46,7 @@ struct MapRaster {
   CellRange whole_cells;        // the cells that `whole` covers
   CellRange cells;              // the cells asked for, inside of `whole_cells`
   std::string crs_wkt;
-  double cell = 0;  // units of the CRS
+  double cell = 0;    // units of the CRS
   double cell_m = 0;  // about, on the ground
   raster::Labels labels;
 

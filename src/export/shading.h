@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hillshade or relief of a large map, block by block. Shading needs metres on both axes, so it is done in the map's own
-// reference system, before the picture is brought to another.
+// A hillshade or relief of a large map, block by block. Shading needs metres on both axes, so it is done in the map's
+// own reference system, before the picture is brought to another.
 #pragma once
 
 #include <filesystem>

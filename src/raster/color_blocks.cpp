@@ -17,9 +17,9 @@ void write_color_blocks(const std::filesystem::path& path, int width, int height
                         const std::function<Array2d<Rgba8>(const Window&)>& block, const OnProgress& progress) {
   const GdalSession gdal;
   CPLStringList options;
-  for (const char* option : {"COMPRESS=DEFLATE", "ZLEVEL=1", "PREDICTOR=2", "TILED=YES", "BLOCKXSIZE=512",
-                             "BLOCKYSIZE=512", "PHOTOMETRIC=RGB", "ALPHA=NON-PREMULTIPLIED", "INTERLEAVE=PIXEL",
-                             "BIGTIFF=IF_SAFER", "SPARSE_OK=TRUE"})
+  for (const char* option :
+       {"COMPRESS=DEFLATE", "ZLEVEL=1", "PREDICTOR=2", "TILED=YES", "BLOCKXSIZE=512", "BLOCKYSIZE=512",
+        "PHOTOMETRIC=RGB", "ALPHA=NON-PREMULTIPLIED", "INTERLEAVE=PIXEL", "BIGTIFF=IF_SAFER", "SPARSE_OK=TRUE"})
     options.AddString(option);
   const auto fail = [&] {
     throw failure("cannot write " + path.string() + ": " + gdal.reason("GDAL gives no reason"));

@@ -157,6 +157,14 @@ bool is_local_crs(const std::string& wkt) {
   return spatial_reference_of(wkt).IsLocal() != 0;
 }
 
+std::string esri_wkt(const std::string& wkt) {
+  const GdalSession gdal;
+  OGRSpatialReference crs = spatial_reference_of(wkt);
+  if (crs.IsCompound()) crs.StripVertical();
+  crs.morphToESRI();
+  return wkt_of(crs);
+}
+
 Box2d transformed_extent(const std::string& from_wkt, const std::string& to_wkt, const Box2d& box) {
   if (from_wkt == to_wkt) return box;
   const GdalSession gdal;
@@ -167,8 +175,9 @@ Box2d transformed_extent(const std::string& from_wkt, const std::string& to_wkt,
       from.IsLocal() || to.IsLocal() ? nullptr : OGRCreateCoordinateTransformation(&from, &to));
   constexpr int kPointsPerSide = 21;
   Box2d out;
-  if (!transformation || !transformation->TransformBounds(box.min.x, box.min.y, box.max.x, box.max.y, &out.min.x,
-                                                          &out.min.y, &out.max.x, &out.max.y, kPointsPerSide) ||
+  if (!transformation ||
+      !transformation->TransformBounds(box.min.x, box.min.y, box.max.x, box.max.y, &out.min.x, &out.min.y, &out.max.x,
+                                       &out.max.y, kPointsPerSide) ||
       !std::isfinite(out.width()) || !std::isfinite(out.height()))
     throw usage_error("there is no way from " + crs_name(from_wkt) + " to " + crs_name(to_wkt) +
                       " for all of the area: choose a system that covers it");

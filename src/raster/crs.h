@@ -32,12 +32,15 @@ struct Wgs84Position {
 // Error(usage) for a place that the system does not reach.
 std::optional<std::vector<Wgs84Position>> wgs84_positions(const std::string& wkt, const std::vector<Vec2d>& places);
 
-// WKT of the system that a user names for a copy of a map. Degrees and feet are allowed; a vertical part is not, because
-// heights are never converted: the copy keeps that of `map_wkt`, if it has one. Throws Error(usage).
+// WKT of the system that a user names for a copy of a map. Degrees and feet are allowed; a vertical part is not,
+// because heights are never converted: the copy keeps that of `map_wkt`, if it has one. Throws Error(usage).
 std::string output_crs_from_user_input(const std::string& text, const std::string& map_wkt);
 
 // Whether it is a frame without a place on Earth.
 bool is_local_crs(const std::string& wkt);
+
+// The horizontal part as ESRI writes it, for .prj files.
+std::string esri_wkt(const std::string& wkt);
 
 // The rectangle in system `to` around all that lies in `box` of system `from` (heights do not count), with sides
 // densified. Throws Error(usage) if some of it lies outside of what a system covers, or one is local and the other not.

@@ -135,8 +135,8 @@ DatasetPtr warped(GDALDataset& source, const std::vector<std::string>& arguments
   const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> options(
       GDALWarpAppOptionsNew(list_of(arguments).List(), nullptr), GDALWarpAppOptionsFree);
   GDALDatasetH sources[] = {GDALDataset::ToHandle(&source)};
-  DatasetPtr result(
-      options ? GDALDataset::FromHandle(GDALWarp("", nullptr, 1, sources, options.get(), nullptr)) : nullptr);
+  DatasetPtr result(options ? GDALDataset::FromHandle(GDALWarp("", nullptr, 1, sources, options.get(), nullptr))
+                            : nullptr);
   if (!result) throw failure("the map cannot be brought to another lattice: " + gdal.reason("GDAL gives no reason"));
   return result;
 }
@@ -212,8 +212,8 @@ VirtualRaster VirtualRaster::window(const Window& w) const {
                                           std::to_string(w.height)};
   const std::unique_ptr<GDALTranslateOptions, decltype(&GDALTranslateOptionsFree)> options(
       GDALTranslateOptionsNew(list_of(words).List(), nullptr), GDALTranslateOptionsFree);
-  DatasetPtr part(GDALDataset::FromHandle(
-      GDALTranslate("", GDALDataset::ToHandle(state_->dataset.get()), options.get(), nullptr)));
+  DatasetPtr part(
+      GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(state_->dataset.get()), options.get(), nullptr)));
   if (!part) throw failure("the map cannot be cut: " + gdal.reason("GDAL gives no reason"));
   GeoReference place = state_->georeference;
   place.north_west_corner.x += w.column * place.cell_m;
@@ -225,8 +225,8 @@ VirtualRaster VirtualRaster::with_no_data(double value) const {
   SKY_CHECK(type_of(kind()) == GDT_Float32);
   const GdalSession gdal;
   const Resample same{state_->georeference, width(), height(), Resampling::nearest, 1};
-  return VirtualRaster(State::child(state_, state_->georeference,
-                                    warped(*state_->dataset, warp_arguments(kind(), same, value), gdal)));
+  return VirtualRaster(
+      State::child(state_, state_->georeference, warped(*state_->dataset, warp_arguments(kind(), same, value), gdal)));
 }
 
 Array2d<float> VirtualRaster::floats(const Window& window) const {
@@ -244,9 +244,8 @@ Array2d<std::uint8_t> VirtualRaster::classes(const Window& window) const {
   return state_->read<std::uint8_t>(window);
 }
 
-void VirtualRaster::write(const fs::path& path, const std::string& driver_name,
-                          const std::vector<std::string>& options, const Labels& labels, const fs::path& blamed,
-                          const OnProgress& progress) const {
+void VirtualRaster::write(const fs::path& path, const std::string& driver_name, const std::vector<std::string>& options,
+                          const Labels& labels, const fs::path& blamed, const OnProgress& progress) const {
   const GdalSession gdal;
   GDALDataset& dataset = *state_->dataset;
   // With the vertical part of the reference system, which resampling leaves out.

@@ -28,8 +28,8 @@ enum class Resampling {
   average,   // of all below the new cell, by area
 };
 
-// The lattice to come to. `scale`: side of a cell of the old lattice over that of the new one, on the ground; given once
-// for the whole raster, because GDAL would estimate it for each block, differently.
+// The lattice to come to. `scale`: side of a cell of the old lattice over that of the new one, on the ground; given
+// once for the whole raster, because GDAL would estimate it for each block, differently.
 struct Resample {
   GeoReference georeference;
   int width = 0;
