@@ -64,10 +64,11 @@ void write_labels_json(const MapRaster& map, const std::map<std::string, std::st
   write_text(path, labels.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-void write_side_files(const MapRaster& map, const Destination& to) {
+void write_side_files(const MapRaster& map, const std::string& no_data, const Destination& to) {
+  std::map<std::string, std::string> words = label_words(map);
+  words["NO_DATA"] = no_data;
   std::string xml = "<PAMDataset>\n  <SRS>" + escaped(map.crs_wkt) + "</SRS>\n  <Metadata>\n";
-  for (const auto& [name, text] : label_words(map))
-    xml += "    <MDI key=\"" + name + "\">" + escaped(text) + "</MDI>\n";
+  for (const auto& [name, text] : words) xml += "    <MDI key=\"" + name + "\">" + escaped(text) + "</MDI>\n";
   write_text(to.side_file(".aux.xml"), xml + "  </Metadata>\n</PAMDataset>\n");
   if (raster::is_local_crs(map.crs_wkt)) return;
   const std::filesystem::path prj = std::filesystem::path(to.result()).replace_extension(".prj");

@@ -18,7 +18,8 @@ std::map<std::string, std::string> label_words(const MapRaster& map);
 void write_labels_json(const MapRaster& map, const std::map<std::string, std::string>& more,
                        const std::filesystem::path& path);
 
-// <result>.prj and <result>.aux.xml (GDAL's), which GDAL and QGIS read with the result. A local frame has no .prj.
-void write_side_files(const MapRaster& map, const Destination& to);
+// For the result grid.asc, grid.prj and grid.asc.aux.xml (GDAL's), which GDAL and QGIS read with it; a local frame has
+// no .prj. `no_data`: the words for a cell without value in this format.
+void write_side_files(const MapRaster& map, const std::string& no_data, const Destination& to);
 
 }  // namespace skysweep::exports

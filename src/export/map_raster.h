@@ -25,11 +25,11 @@ std::string to_string(Layer layer);
 
 struct MapRequest {
   Layer layer = Layer::dsm;
-  std::optional<Box2d> area;                        // in the map's CRS; without it all that is known
-  std::optional<std::string> crs_wkt;               // from output_crs_from_user_input; without it the map's own
-  std::optional<double> cell;                       // in units of the CRS; without it as fine as the map
-  std::optional<raster::Resampling> resampling;     // bilinear without it; the mask is always nearest
-  std::optional<raster::HeightSpan> relief_span_m;  // the usual one without it
+  std::optional<Box2d> area = {};                        // in the map's CRS; without it all that is known
+  std::optional<std::string> crs_wkt = {};               // from output_crs_from_user_input; without it the map's own
+  std::optional<double> cell = {};                       // in units of the CRS; without it as fine as the map
+  std::optional<raster::Resampling> resampling = {};     // bilinear without it; the mask is always nearest
+  std::optional<raster::HeightSpan> relief_span_m = {};  // the usual one without it
 };
 
 // The lattice of an export: cell (0, 0) has its south-west corner in the origin of the CRS, x grows eastwards and y

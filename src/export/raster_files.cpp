@@ -105,7 +105,7 @@ void write_ascii_grid(const MapRaster& map, const Destination& to, const raster:
   const std::filesystem::path grid = to.scratch() / "grid.asc";  // GDAL's own side files stay here
   part.write(grid, "AAIGrid", options, {}, to.path(), progress);
   std::filesystem::rename(grid, to.result());
-  write_side_files(map, to);
+  write_side_files(map, is_float(map.whole.kind()) ? "-9999" : "0", to);
 }
 
 std::int64_t write_xyz_text(const MapRaster& map, const Destination& to, const raster::OnProgress& progress) {
@@ -143,7 +143,7 @@ std::int64_t write_xyz_text(const MapRaster& map, const Destination& to, const r
     if (progress && !progress(std::min(1.0, (row + kRows) / static_cast<double>(all.height)))) throw raster::Stopped{};
   }
   file.close();
-  write_side_files(map, to);
+  write_side_files(map, "absent", to);
   return points;
 }
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <memory>
+
+#include "app/commands/commands.h"
+#include "app/commands/export/options.h"
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "core/error.h"
+#include "pipeline/project.h"
+#include "raster/crs.h"
+
+namespace skysweep::app {
+namespace {
+
+using exports::Destination;
+using exports::DestinationKind;
+
+// A share of the whole as steps of a progress line; stops when Ctrl-C asks.
+class PercentSteps {
+ public:
+  PercentSteps(Console& console, const std::string& stage) : console_(console) { console.begin(stage, 100); }
+  raster::OnProgress callback() {
+    return [this](double share) {
+      for (; done_ < static_cast<int>(100 * share + 1e-6); ++done_) console_.advance();
+      return !interrupt_requested();
+    };
+  }
+
+ private:
+  Console& console_;
+  int done_ = 0;
+};
+
+std::string size_text(const exports::MapRaster& map) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%lld x %lld cells of %.9g", static_cast<long long>(map.cells.width()),
+                static_cast<long long>(map.cells.height()), map.cell);
+  return text;
+}
+
+void say_map(const Destination& to, const exports::MapRaster& map, const std::string& what, Console& console) {
+  console.say(to.path().string() + ": " + map.labels.content + ", " + what + ". CRS: " + raster::crs_name(map.crs_wkt) +
+              "." + (map.labels.vertical_reference.empty() ? "" : " Heights: " + map.labels.vertical_reference + "."));
+}
+
+// Formats of one layer on a free lattice.
+void write_raster(const ExportOptions& options, const tiles::TileStore& store, const Destination& to,
+                  Console& console) {
+  const exports::MapRequest request = options.request(store.crs_wkt());
+  const bool shades = request.layer == exports::Layer::hillshade || request.layer == exports::Layer::relief;
+  std::optional<PercentSteps> shading;
+  if (shades) shading.emplace(console, "shading");
+  const exports::MapRaster map =
+      exports::map_raster(store, request, to.scratch(), shades ? shading->callback() : raster::OnProgress());
+  PercentSteps steps(console, "export");
+  std::string what = size_text(map);
+  switch (options.chosen_format()) {
+    case ExportFormat::geotiff_tiles:
+      what += " in " + std::to_string(exports::write_geotiff_tiles(map, options.tile_size(), to, steps.callback())) +
+              " tiles";
+      break;
+    case ExportFormat::ascii_grid: exports::write_ascii_grid(map, to, steps.callback()); break;
+    case ExportFormat::xyz_text:
+      what += ", " + std::to_string(exports::write_xyz_text(map, to, steps.callback())) + " points";
+      break;
+    default: exports::write_cog(map, to, steps.callback());
+  }
+  say_map(to, map, what, console);
+}
+
+DestinationKind kind_of(ExportFormat format) {
+  return format == ExportFormat::geotiff_tiles || format == ExportFormat::web_tiles ? DestinationKind::folder
+                                                                                    : DestinationKind::file;
+}
+
+int export_map(const ExportOptions& options) {
+  options.check();
+  const pipeline::ProjectPaths paths(options.project);
+  if (!pipeline::project_exists(paths))
+    throw bad_input(options.project + " holds no project (project.toml is missing).");
+  Console console(options.json_log);
+  const pipeline::ProjectSettings settings = pipeline::read_project(paths);
+  const tiles::TileStore store = pipeline::open_store(paths, settings);
+  options.request(store.crs_wkt());  // wrong words before anything is made on the disk
+  Destination to(options.output, kind_of(options.chosen_format()), options.overwrite);
+  interrupt_requested();  // from here on Ctrl-C cleans up
+  try {
+    write_raster(options, store, to, console);
+    to.publish();
+  } catch (const raster::Stopped&) {
+    console.say("Interrupted. Nothing was written.");
+    return kExitInterrupted;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& program, ChosenCommand& chosen) {
+  CLI::App* command =
+      program.add_subcommand("export", "Write the map, or a part of it, in a format for GIS or web maps.");
+  auto o = std::make_shared<ExportOptions>();
+  command->add_option("PROJECT", o->project, "Project folder")->required();
+  command->add_option("-o,--output", o->output, "File or folder to make")->required();
+  command->add_option("--format", o->format, "cog, geotiff-tiles, web-tiles, mbtiles, ascii-grid, xyz-text or exr")
+      ->required();
+  command->add_option("--layer", o->layer, "dsm (default), ortho, confidence, mask, hillshade or relief");
+  command->add_option("--aoi", o->area, "Only x0,y0,x1,y1, in the map's CRS");
+  command->add_option("--crs", o->crs, "CRS of the output, e.g. EPSG:4326; heights are not converted");
+  command->add_option("--cell,--resolution", o->cell, "Side of a cell in units of the output's CRS");
+  command->add_option("--resampling", o->resampling, "nearest, bilinear (default), cubic or average");
+  command->add_option("--relief-range", o->relief_range, "LOW,HIGH: heights at the ends of the relief's colours");
+  command->add_option("--tile-cells", o->tile_cells, "Side of a GeoTIFF tile in cells (default 1024)");
+  command->add_option("--overlap", o->overlap, "Cells that a GeoTIFF tile shows of its neighbours (default 0)");
+  command->add_flag("--overwrite", o->overwrite, "Replace what an earlier export has left there");
+  command->add_flag("--json-log", o->json_log, "One JSON object a line instead of text");
+  command->callback([o, &chosen] { chosen = [o] { return export_map(*o); }; });
+}
+
+}  // namespace skysweep::app
