@@ -7,6 +7,7 @@
 
 #include "export/map_raster.h"
 #include "export/raster_files.h"
+#include "export/tile_sets.h"
 
 namespace skysweep::app {
 
@@ -16,7 +17,8 @@ struct ExportOptions {
   std::string project, output, format;
   std::optional<std::string> layer, area, crs, resampling, relief_range;
   std::optional<double> cell;
-  std::optional<int> tile_cells, overlap;
+  std::optional<int> tile_cells, overlap, quality;
+  std::optional<std::string> encoding, zoom, scheme;
   bool overwrite = false;
   bool json_log = false;
 
@@ -27,6 +29,10 @@ struct ExportOptions {
   void check() const;
   exports::MapRequest request(const std::string& map_crs) const;
   exports::TileSize tile_size() const;
+  // Of web tiles: on the lattice of the finest zoom.
+  exports::MapRequest web_request(const tiles::TileStore& store, const exports::WebTileOptions& web) const;
+  exports::WebTileOptions web_tiles(const tiles::TileStore& store) const;
+  exports::TileScheme tile_scheme() const;
 };
 
 }  // namespace skysweep::app
