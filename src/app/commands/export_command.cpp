@@ -7,6 +7,7 @@
 #include "app/console.h"
 #include "app/interrupt.h"
 #include "core/error.h"
+#include "export/exr_map.h"
 #include "pipeline/project.h"
 #include "raster/crs.h"
 
@@ -89,11 +90,19 @@ void write_web(const ExportOptions& options, const tiles::TileStore& store, cons
           console);
 }
 
+void write_exr(const ExportOptions& options, const tiles::TileStore& store, const Destination& to, Console& console) {
+  const exports::MapParts parts = exports::map_parts(store, options.request(store.crs_wkt()), to.scratch());
+  PercentSteps steps(console, "export");
+  exports::write_exr_map(parts, to, steps.callback());
+  say_map(to, parts.height, "sigma, colour and mask, " + size_text(parts.height), console);
+}
+
 void write_format(const ExportOptions& options, const tiles::TileStore& store, const Destination& to,
                   Console& console) {
   switch (options.chosen_format()) {
     case ExportFormat::web_tiles:
     case ExportFormat::mbtiles: return write_web(options, store, to, console);
+    case ExportFormat::exr: return write_exr(options, store, to, console);
     default: return write_raster(options, store, to, console);
   }
 }

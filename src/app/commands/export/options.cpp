@@ -76,6 +76,7 @@ void ExportOptions::check() const {
       {"--layer", layer.has_value(), {cog, geotiff_tiles, web_tiles, mbtiles, ascii_grid, xyz_text}},
       {"--crs", crs.has_value(), on_a_free_lattice},
       {"--cell", cell.has_value(), on_a_free_lattice},
+      {"--relief-range", relief_range.has_value(), {cog, geotiff_tiles, web_tiles, mbtiles}},
       {"--tile-cells", tile_cells.has_value(), {geotiff_tiles}},
       {"--overlap", overlap.has_value(), {geotiff_tiles}},
       {"--encoding", encoding.has_value(), {web_tiles, mbtiles}},
