@@ -16,7 +16,7 @@ struct MapParts {
 // The request's layer does not count; a resampling other than nearest is not applied to the mask.
 MapParts map_parts(const tiles::TileStore& store, MapRequest request, const std::filesystem::path& scratch);
 
-// Every part carries the labels, the CRS (as `crsWkt`), the outer corner of its north-west cell (`northWestCorner`) and
+// Every part carries the labels, the CRS (as `crsWkt`), the outer corner of its north-west cell (`west`, `north`) and
 // the side of a cell (`cell`). Memory does not grow with the map. Throws Error(failed) naming the file, and Stopped.
 void write_exr_map(const MapParts& parts, const Destination& to, const raster::OnProgress& progress = {});
 
