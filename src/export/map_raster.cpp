@@ -23,6 +23,7 @@ using tiles::TileStore;
 
 constexpr std::int64_t kBlockCells = 512;  // a multiple of GDAL's blocks and of web tiles
 constexpr int kMarginCells = 8;            // more than any resampling looks beyond a cell, in cells of the source
+constexpr double kMostReduction = 8;       // of a level's cells to those of an export: a block reads 64 blocks
 constexpr std::int64_t kMostCells = std::numeric_limits<int>::max() - (1 << 20);
 
 std::int64_t floor_to(std::int64_t n, std::int64_t step) { return n - ((n % step) + step) % step; }
@@ -116,6 +117,12 @@ Level level_for(const TileStore& store, double cell_m) {
     if (next.tiles.empty() || !is_parent_of_all(next, level)) break;
     level = std::move(next);
   }
+  const std::int64_t two_tiles = 2 * store.lattice().tile_cells;
+  const bool is_highest = level.cells.width() <= two_tiles && level.cells.height() <= two_tiles;
+  if (!is_highest && cell_m > kMostReduction * level.cell_m)
+    throw bad_input(
+        "the map's coarser levels are not complete, and without them so coarse an export would have to load "
+        "all of the map: run the project again, or ask for smaller cells");
   return level;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The export command from outside: words, refusals, what is left behind. What the formats hold: tests/export.
-#include <chrono>
-#include <csignal>
-#include <thread>
+#include <sstream>
 
 #include "app/simulated_flight.h"
 
@@ -121,6 +119,19 @@ TEST_F(Export, a_local_frame_has_no_web_tiles_and_no_other_crs) {
   }
   EXPECT_EQ(exported("dsm.tif", {"--format=cog", "--cell=0.3"}).exit_code, 0);
   EXPECT_EQ(exported("dsm.asc", {"--format=ascii-grid"}).exit_code, 0);
+}
+
+TEST_F(Export, machines_get_one_json_object_a_line) {
+  ASSERT_EQ(run().exit_code, 0);
+  const Outcome outcome = exported("dsm.tif", {"--format=cog", "--json-log"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  double done = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json event = nlohmann::json::parse(line);
+    if (event.at("event") == "progress") done = event.at("done").get<double>() / event.at("total").get<double>();
+  }
+  EXPECT_EQ(done, 1);
 }
 
 TEST_F(Export, nothing_is_replaced_without_being_asked) {

@@ -271,6 +271,15 @@ TEST_F(RasterFiles, requests_that_cannot_be_met_are_refused) {
     EXPECT_THROW(map(wrong), Error);
 }
 
+// Memory must not grow with the map when its levels are missing.
+TEST_F(RasterFiles, very_coarse_cells_need_the_maps_levels) {
+  EXPECT_EQ(map({.cell = 8.0}).cells.width(), 12);
+  std::filesystem::remove_all(folder / "tiles/dem/l1");
+  const std::string message = message_of<Error>([&] { map({.cell = 8.0}); });
+  EXPECT_NE(message.find("run the project again"), std::string::npos) << message;
+  EXPECT_NO_THROW(map({.cell = 4.0}));
+}
+
 TEST_F(RasterFiles, the_digest_tells_what_the_export_was_made_of) {
   const auto digest = [&](const MapRequest& request) { return map(request).labels.input_digest; };
   const std::string own = digest({});
