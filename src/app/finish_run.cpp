@@ -12,8 +12,8 @@
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
 #include "raster/geotiff.h"
+#include "raster/hillshade.h"
 #include "raster/photo.h"
-#include "report/hillshade.h"
 
 namespace skysweep::app {
 namespace {
@@ -57,7 +57,7 @@ bool write_products(const pipeline::RunRequest& request, const pipeline::RunSumm
     console.advance();
   });
   const raster::Raster<float> dsm = raster::read_float_raster(paths.mosaic("dsm"));
-  raster::write_image(paths.folder / "preview.png", report::hillshade(thinned(dsm)));
+  raster::write_image(paths.folder / "preview.png", raster::hillshade(thinned(dsm)));
   console.advance();
   return true;
 }

@@ -52,6 +52,11 @@ sweep::HeightRange parse_height_range(const std::string& text) {
   return {v[0], v[1]};
 }
 
+Vec2d parse_pair(const std::string& text, const std::string& option, const std::string& form) {
+  const auto v = numbers(text, 2, option, form);
+  return {v[0], v[1]};
+}
+
 std::size_t parse_memory(const std::string& text) {
   double value = 0;
   const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -126,6 +126,64 @@ std::optional<std::vector<Wgs84Position>> wgs84_positions(const std::string& wkt
   return out;
 }
 
+std::string output_crs_from_user_input(const std::string& text, const std::string& map_wkt) {
+  const GdalSession gdal;
+  OGRSpatialReference crs;
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (text.empty() ||
+      crs.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
+    throw refusal(text, "is unknown: name it as \"EPSG:32632\", as WKT or as a PROJ string");
+  if (crs.IsCompound() || crs.IsVertical() || crs.GetAxesCount() > 2)
+    throw refusal(text,
+                  "has a vertical part, but heights are not converted: name the horizontal system alone, e.g. "
+                  "EPSG:25832 in place of EPSG:25832+7837");
+  if (!crs.IsProjected() && !crs.IsGeographic())
+    throw refusal(text, "is neither projected nor geographic: use e.g. a UTM zone such as EPSG:32632, or EPSG:4326");
+  const OGRSpatialReference map = spatial_reference_of(map_wkt);
+  const OGR_SRSNode* vertical = map.IsCompound() ? map.GetAttrNode("COMPD_CS|VERT_CS") : nullptr;
+  if (!vertical) return wkt_of(crs);
+  char* vertical_wkt = nullptr;
+  vertical->exportToWkt(&vertical_wkt);
+  const OGRSpatialReference heights(vertical_wkt);
+  CPLFree(vertical_wkt);
+  OGRSpatialReference both;
+  const std::string name = std::string(crs.GetName()) + " + " + heights.GetName();
+  both.SetCompoundCS(name.c_str(), &crs, &heights);
+  return wkt_of(both);
+}
+
+bool is_local_crs(const std::string& wkt) {
+  const GdalSession gdal;
+  return spatial_reference_of(wkt).IsLocal() != 0;
+}
+
+std::string esri_wkt(const std::string& wkt) {
+  const GdalSession gdal;
+  OGRSpatialReference crs = spatial_reference_of(wkt);
+  if (crs.IsCompound()) crs.StripVertical();
+  crs.morphToESRI();
+  return wkt_of(crs);
+}
+
+Box2d transformed_extent(const std::string& from_wkt, const std::string& to_wkt, const Box2d& box) {
+  if (from_wkt == to_wkt) return box;
+  const GdalSession gdal;
+  OGRSpatialReference from = spatial_reference_of(from_wkt), to = spatial_reference_of(to_wkt);
+  if (from.IsCompound()) from.StripVertical();
+  if (to.IsCompound()) to.StripVertical();
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(
+      from.IsLocal() || to.IsLocal() ? nullptr : OGRCreateCoordinateTransformation(&from, &to));
+  constexpr int kPointsPerSide = 21;
+  Box2d out;
+  if (!transformation ||
+      !transformation->TransformBounds(box.min.x, box.min.y, box.max.x, box.max.y, &out.min.x, &out.min.y, &out.max.x,
+                                       &out.max.y, kPointsPerSide) ||
+      !std::isfinite(out.width()) || !std::isfinite(out.height()))
+    throw usage_error("there is no way from " + crs_name(from_wkt) + " to " + crs_name(to_wkt) +
+                      " for all of the area: choose a system that covers it");
+  return out;
+}
+
 std::string vertical_reference(const std::string& wkt) {
   const GdalSession gdal;
   const OGRSpatialReference crs = spatial_reference_of(wkt);

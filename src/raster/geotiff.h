@@ -54,6 +54,9 @@ void write_geotiff(const std::filesystem::path& path, const Raster<float>& raste
 void write_geotiff(const std::filesystem::path& path, const Raster<Rgba8>& raster);
 void write_geotiff(const std::filesystem::path& path, const Raster<std::uint8_t>& raster);
 
+// What write_geotiff would write, as bytes.
+std::string geotiff_bytes(const Raster<float>& raster);
+
 // Reads a raster of any GDAL format that is north-up with square cells; no-data values of floats become NaN, colours
 // without alpha become opaque, a one-band image becomes grey. Throws Error(bad_input) naming the file: missing,
 // damaged, rotated, wrong kind of values.

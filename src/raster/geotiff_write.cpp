@@ -93,14 +93,20 @@ bool encode(const Raster<T>& raster, const std::string& memory_path) {
                            nullptr) == CE_None;
 }
 
-template <typename T>
-void write(const std::filesystem::path& path, const Raster<T>& raster) {
+// Gives the bytes of the file to `take`; `blamed` is named in the error.
+template <typename T, typename Take>
+void make(const Raster<T>& raster, const std::string& blamed, Take take) {
   SKY_CHECK(!raster.values.empty());
   GdalSession gdal;
   const MemoryFile memory;
   if (!encode(raster, memory.path()) || !gdal.first_error().empty())
-    throw failure("cannot write " + path.string() + ": " + gdal.reason("GDAL gives no reason"));
-  write_bytes_atomically(path, memory.bytes());
+    throw failure("cannot write " + blamed + ": " + gdal.reason("GDAL gives no reason"));
+  take(memory.bytes());
+}
+
+template <typename T>
+void write(const std::filesystem::path& path, const Raster<T>& raster) {
+  make(raster, path.string(), [&](std::string_view bytes) { write_bytes_atomically(path, bytes); });
 }
 
 }  // namespace
@@ -108,5 +114,11 @@ void write(const std::filesystem::path& path, const Raster<T>& raster) {
 void write_geotiff(const std::filesystem::path& path, const Raster<float>& raster) { write(path, raster); }
 void write_geotiff(const std::filesystem::path& path, const Raster<Rgba8>& raster) { write(path, raster); }
 void write_geotiff(const std::filesystem::path& path, const Raster<std::uint8_t>& raster) { write(path, raster); }
+
+std::string geotiff_bytes(const Raster<float>& raster) {
+  std::string out;
+  make(raster, "a GeoTIFF", [&](std::string_view bytes) { out = bytes; });
+  return out;
+}
 
 }  // namespace skysweep::raster

@@ -28,7 +28,7 @@ TEST_F(Commands, version_and_help_end_with_0) {
   const Outcome version = skysweep({"--version"});
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_TRUE(says(version.out, {"skysweep "}));
-  for (const char* command : {"run", "info", "evaluate", "sweep", "simulate"}) {
+  for (const char* command : {"run", "info", "evaluate", "sweep", "simulate", "export"}) {
     const Outcome help = skysweep({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_TRUE(says(help.out, {"--help"}));

@@ -16,5 +16,6 @@ void add_info_command(CLI::App& program, ChosenCommand& chosen);
 void add_evaluate_command(CLI::App& program, ChosenCommand& chosen);
 void add_sweep_command(CLI::App& program, ChosenCommand& chosen);
 void add_simulate_command(CLI::App& program, ChosenCommand& chosen);
+void add_export_command(CLI::App& program, ChosenCommand& chosen);
 
 }  // namespace skysweep::app

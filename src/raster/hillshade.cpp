@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/hillshade.h"
+#include "raster/hillshade.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "report/quantile.h"
-
-namespace skysweep::report {
+namespace skysweep::raster {
 namespace {
 
 Vec3d towards_sun(const HillshadeOptions& options) {
@@ -19,7 +17,7 @@ Vec3d towards_sun(const HillshadeOptions& options) {
 }
 
 // Upward normal of the surface at a cell that has a height.
-Vec3d normal(const raster::Raster<float>& dem, int column, int row, double exaggeration) {
+Vec3d normal(const Raster<float>& dem, int column, int row, double exaggeration) {
   const double own = dem.values(column, row);
   const auto z = [&](int dx, int dy) -> double {
     const int x = column + dx, y = row + dy;
@@ -40,7 +38,7 @@ std::uint8_t to_byte(double value) { return static_cast<std::uint8_t>(std::clamp
 
 // color(column, row) gives the fully lit colour, 0 to 255, of a cell.
 template <typename Color>
-Array2d<Rgb8> shade(const raster::Raster<float>& dem, const HillshadeOptions& options, Color color) {
+Array2d<Rgb8> shade(const Raster<float>& dem, const HillshadeOptions& options, Color color) {
   const Vec3d sun = towards_sun(options);
   Array2d<Rgb8> out(dem.values.width(), dem.values.height());
   for (int row = 0; row < out.height(); ++row)
@@ -68,21 +66,28 @@ Vec3d relief_color(double height) {
 
 }  // namespace
 
-Array2d<Rgb8> hillshade(const raster::Raster<float>& dem, const HillshadeOptions& options) {
+Array2d<Rgb8> hillshade(const Raster<float>& dem, const HillshadeOptions& options) {
   return shade(dem, options, [](int, int) { return Vec3d{255, 255, 255}; });
 }
 
-Array2d<Rgb8> shaded_relief(const raster::Raster<float>& dem, const HillshadeOptions& options) {
-  std::vector<float> heights;
-  std::copy_if(dem.values.begin(), dem.values.end(), std::back_inserter(heights),
-               [](float z) { return std::isfinite(z); });
-  const double low = quantile(heights, 0.02), high = quantile(heights, 0.98);
+HeightSpan usual_span(std::vector<float>& heights_m) {
+  if (heights_m.empty()) return {};
+  const auto quantile = [&](double q) -> double {
+    const auto rank = static_cast<std::ptrdiff_t>(q * static_cast<double>(heights_m.size() - 1));
+    std::nth_element(heights_m.begin(), heights_m.begin() + rank, heights_m.end());
+    return heights_m[static_cast<std::size_t>(rank)];
+  };
+  const double low = quantile(0.02);
+  return {low, quantile(0.98)};
+}
+
+Array2d<Rgb8> shaded_relief(const Raster<float>& dem, HeightSpan span, const HillshadeOptions& options) {
   // Level ground lit at 45 degrees should show its colour nearly as it is, not at 70 %.
   constexpr double kBrightness = 1.3;
+  const double width = span.high_m - span.low_m;
   return shade(dem, options, [&](int column, int row) {
-    const double span = high - low;
-    return kBrightness * relief_color(span > 0 ? (dem.values(column, row) - low) / span : 0.5);
+    return kBrightness * relief_color(width > 0 ? (dem.values(column, row) - span.low_m) / width : 0.5);
   });
 }
 
-}  // namespace skysweep::report
+}  // namespace skysweep::raster
