@@ -75,6 +75,12 @@ std::vector<sweep::View> TileGeometry::views(const index::ViewSelection& selecti
   return views;
 }
 
+std::vector<int> TileGeometry::base_levels(const index::ViewSelection& selection, const HeightRange& heights) const {
+  std::vector<int> levels;
+  for (const int i : selection.chosen) levels.push_back(base_level(candidates_[i].camera, heights));
+  return levels;
+}
+
 // The mipmap level whose pixels are between 0.35 and 0.7 of a cell: never coarser than a cell, never so fine that most
 // pixels fall between the cells.
 int TileGeometry::base_level(const camera::Camera& camera, const HeightRange& heights) const {

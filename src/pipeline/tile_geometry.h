@@ -31,6 +31,8 @@ class TileGeometry {
   std::vector<sweep::View> views(const index::ViewSelection& selection,
                                  const std::vector<std::shared_ptr<const sweep::ImagePyramid>>& images,
                                  const sweep::HeightRange& heights) const;
+  // The mipmap levels that these views are sampled at.
+  std::vector<int> base_levels(const index::ViewSelection& selection, const sweep::HeightRange& heights) const;
 
  private:
   int base_level(const camera::Camera& camera, const sweep::HeightRange& heights) const;
