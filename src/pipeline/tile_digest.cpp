@@ -10,7 +10,9 @@ using index::ImageRecord;
 
 constexpr std::size_t kShortDigits = 16;  // of a photograph among those of one tile: 64 bits are plenty
 
+// A zero is a zero: databases do not keep its sign.
 void add_number(raster::Digest& digest, double value) {
+  value += 0.0;
   digest.add_bytes({reinterpret_cast<const char*>(&value), sizeof value});
 }
 

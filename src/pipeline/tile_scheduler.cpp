@@ -177,10 +177,10 @@ void say_why(const std::vector<StaleTile>& stale, Progress& progress) {
 }
 
 // The border of every map has such tiles; a map of nothing else is worth a warning.
-void say_what_is_unknown(const UnknownTiles& unknown, Progress& progress) {
+void say_what_is_unknown(const UnknownTiles& unknown, bool whole_map, Progress& progress) {
   const std::string sentence = unknown.sentence();
   if (sentence.empty()) return;
-  unknown.count() == unknown.looked_at ? progress.warn(sentence) : progress.note(sentence);
+  whole_map&& unknown.count() == unknown.looked_at ? progress.warn(sentence) : progress.note(sentence);
 }
 
 // Level 0: until no photograph fails any more.
@@ -199,7 +199,7 @@ void update_finest(MapUpdate& update, RunSummary& summary, TbbExecutor& executor
     say_why(work.stale, progress);
     Pass pass(update, summary, progress, stop);
     const FailedPhotographs failed = pass.run(work.stale, executor);
-    if (failed.empty() || stop) return say_what_is_unknown(pass.unknown(), progress);
+    if (failed.empty() || stop) return say_what_is_unknown(pass.unknown(), work.fresh == 0, progress);
     refuse(update.images, failed, progress);
   }
 }
