@@ -35,4 +35,9 @@ struct WorkList {
 WorkList find_work(const Coverage& coverage, const TileChecker& checker, const MapRecords* records,
                    const tiles::TileStore& store, const std::optional<Box2d>& area, Executor& executor);
 
+// The same for these tiles only: those that photographs touch which came or went since the last look.
+WorkList find_work_among(std::vector<tiles::TileKey> keys, const Coverage& coverage, const TileChecker& checker,
+                         const MapRecords& records, const tiles::TileStore& store, const std::optional<Box2d>& area,
+                         Executor& executor);
+
 }  // namespace skysweep::pipeline

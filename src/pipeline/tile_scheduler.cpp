@@ -183,15 +183,28 @@ void say_what_is_unknown(const UnknownTiles& unknown, bool whole_map, Progress& 
   whole_map&& unknown.count() == unknown.looked_at ? progress.warn(sentence) : progress.note(sentence);
 }
 
+// Tiles that the failed photographs were to serve; from now on they have to do without.
+std::vector<tiles::TileKey> take_out(const FailedPhotographs& failed, const std::vector<index::ImageRecord>& images,
+                                     Coverage& coverage) {
+  std::vector<tiles::TileKey> keys;
+  for (const index::ImageRecord& image : images) {
+    if (!failed.contains(image.name)) continue;
+    const std::vector<tiles::TileKey> touched = coverage.touched(image);
+    keys.insert(keys.end(), touched.begin(), touched.end());
+    coverage.remove(image.name);
+  }
+  return keys;
+}
+
 // Level 0: until no photograph fails any more.
 void update_finest(MapUpdate& update, RunSummary& summary, TbbExecutor& executor, Progress& progress,
                    const std::atomic<bool>& stop) {
-  for (bool first = summary.tiles_kept < 0;; first = false) {
-    record_images(update, progress);
-    const Coverage coverage(update.images, update.settings);
-    const WorkList work =
-        find_work(coverage, update.checker, &update.records, update.store, update.request.area, executor);
-    if (first) summary.tiles_kept = work.fresh;
+  record_images(update, progress);
+  Coverage coverage(update.images, update.settings);
+  WorkList work = find_work(coverage, update.checker, &update.records, update.store, update.request.area, executor);
+  const int kept = work.fresh;
+  if (summary.tiles_kept < 0) summary.tiles_kept = kept;
+  for (;;) {
     require_disk_space(update.paths.folder, disk_bytes(work.stale.size(), update.settings));
     update.records.put(work.told);
     summary.tiles_removed += static_cast<int>(work.gone.size());
@@ -199,8 +212,11 @@ void update_finest(MapUpdate& update, RunSummary& summary, TbbExecutor& executor
     say_why(work.stale, progress);
     Pass pass(update, summary, progress, stop);
     const FailedPhotographs failed = pass.run(work.stale, executor);
-    if (failed.empty() || stop) return say_what_is_unknown(pass.unknown(), work.fresh == 0, progress);
+    if (failed.empty() || stop) return say_what_is_unknown(pass.unknown(), kept == 0, progress);
+    const std::vector<tiles::TileKey> keys = take_out(failed, update.images, coverage);
     refuse(update.images, failed, progress);
+    record_images(update, progress);
+    work = find_work_among(keys, coverage, update.checker, update.records, update.store, update.request.area, executor);
   }
 }
 
