@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <set>
+#include <string_view>
 
 #include "core/check.h"
+#include "pipeline/tile_digest.h"
 #include "pipeline/tile_geometry.h"
+#include "raster/digest.h"
 
 namespace skysweep::pipeline {
 
@@ -54,8 +57,11 @@ void Coverage::add(const index::ImageRecord& record) {
   const bool is_new = ids_.emplace(record.name, id).second;
   SKY_CHECK(is_new);
   const Box3d box = pyramid_box(camera::Camera(record.model, record.pose), settings_.search);
-  by_id_.push_back({&record, box.ground()});
-  index_.insert(id, box, true);
+  by_id_.push_back({&record, box.ground(), {}});
+  const std::string digest = photograph_digest(record);
+  SKY_CHECK_EQ(digest.size(), by_id_.back().digest.size());
+  std::copy(digest.begin(), digest.end(), by_id_.back().digest.begin());
+  index_.insert(id, box, false);  // all of them count, so that the index need not keep those that do apart
 }
 
 void Coverage::remove(const std::string& name) {
@@ -70,7 +76,7 @@ void Coverage::remove(const std::string& name) {
 // that as large as a continent.
 std::vector<TileKey> Coverage::touched(const index::ImageRecord& record) const {
   const double reach = settings_.configuration.tiles.collar_cells * settings_.lattice.cell_m + kSlackM;
-  const Box2d mapped = index_.mapped_area();
+  const Box2d mapped = index_.extent().ground();
   const Box2d box = pyramid_box(camera::Camera(record.model, record.pose), settings_.search).ground();
   const Vec2d low{std::max(box.min.x - reach, mapped.min.x), std::max(box.min.y - reach, mapped.min.y)};
   const Vec2d high{std::min(box.max.x + reach, mapped.max.x), std::min(box.max.y + reach, mapped.max.y)};
@@ -97,21 +103,39 @@ std::vector<TileKey> Coverage::tiles(const std::optional<Box2d>& area) const {
 }
 
 bool Coverage::is_mapped(TileKey key) const {
-  return static_cast<int>(candidates(key).size()) >= settings_.configuration.sweep.min_views;
+  return static_cast<int>(candidate_ids(key).size()) >= settings_.configuration.sweep.min_views;
 }
 
-std::vector<const index::ImageRecord*> Coverage::candidates(tiles::TileKey key) const {
+std::vector<int> Coverage::candidate_ids(TileKey key) const {
   const Box2d world = tile_with_collar(key, settings_);
   const Box3d extent = index_.extent();
   const Box3d query{{world.min.x - kSlackM, world.min.y - kSlackM, extent.min.z},
                     {world.max.x + kSlackM, world.max.y + kSlackM, extent.max.z}};
+  std::vector<int> ids = index_.query(query);
+  std::erase_if(ids, [&](int id) { return !may_show(by_id_[static_cast<std::size_t>(id)], key, world); });
+  return ids;
+}
+
+std::vector<const index::ImageRecord*> Coverage::candidates(TileKey key) const {
   std::vector<const index::ImageRecord*> found;
-  for (const int id : index_.query(query)) {
-    const Entry& entry = by_id_[static_cast<std::size_t>(id)];
-    if (may_show(entry, key, world)) found.push_back(entry.record);
-  }
+  for (const int id : candidate_ids(key)) found.push_back(by_id_[static_cast<std::size_t>(id)].record);
   std::sort(found.begin(), found.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
   return found;
+}
+
+// In the order of the digests themselves: as good as any that does not depend on the order of arrival.
+std::string Coverage::candidates_digest(TileKey key, const std::string& settings) const {
+  std::vector<std::string_view> photographs;
+  for (const int id : candidate_ids(key)) {
+    const Entry& entry = by_id_[static_cast<std::size_t>(id)];
+    photographs.emplace_back(entry.digest.data(), entry.digest.size());
+  }
+  std::sort(photographs.begin(), photographs.end());
+  raster::Digest digest;
+  digest.add_field(key.name());
+  digest.add_field(settings);
+  for (const std::string_view photograph : photographs) digest.add_bytes(photograph);
+  return digest.hex();
 }
 
 // World coordinates decide where rounding cannot: well inside. Near the border the tile's own frame has the last word.

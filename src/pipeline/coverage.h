@@ -2,6 +2,7 @@
 // Which tiles the photographs touch, and which photographs a tile is made from.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -37,13 +38,19 @@ class Coverage {
   // The photographs that may show the tile or its collar, sorted by name. Decided in the tile's own frame.
   std::vector<const index::ImageRecord*> candidates(tiles::TileKey key) const;
 
+  // Digest of the tile's place, these settings (settings_digest) and all its candidates. Asks nothing of the records:
+  // when it is as it was, so is the tile.
+  std::string candidates_digest(tiles::TileKey key, const std::string& settings) const;
+
  private:
   const ProjectSettings& settings_;
   index::ViewIndex index_;
   struct Entry {
     const index::ImageRecord* record = nullptr;  // null: removed
     Box2d ground;                                // of its view pyramid, in the world
+    std::array<char, 32> digest{};
   };
+  std::vector<int> candidate_ids(tiles::TileKey key) const;
   bool may_show(const Entry& entry, tiles::TileKey key, const Box2d& tile) const;
   std::vector<Entry> by_id_;
   std::unordered_map<std::string, int> ids_;

@@ -19,9 +19,11 @@ WorkList check_all(const std::vector<TileKey>& keys, const Coverage& coverage, c
   std::vector<StaleTile> tiles(keys.size());
   std::vector<TileCheck> checks(keys.size());
   executor.parallel_for(static_cast<int>(keys.size()), [&](int i) {
+    checks[i] = checker.check(keys[i], coverage, row_of(keys[i], records));
+    if (checks[i].fresh) return;
     tiles[i].key = keys[i];
     tiles[i].candidates = coverage.candidates(keys[i]);
-    checks[i] = checker.check(keys[i], tiles[i].candidates, row_of(keys[i], records));
+    tiles[i].candidates_digest = coverage.candidates_digest(keys[i], checker.settings());
   });
   WorkList work;
   for (std::size_t i = 0; i < keys.size(); ++i) {

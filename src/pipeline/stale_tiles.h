@@ -18,6 +18,7 @@ namespace skysweep::pipeline {
 struct StaleTile {
   tiles::TileKey key;
   std::vector<const index::ImageRecord*> candidates;
+  std::string candidates_digest;
   std::string why;
   bool damaged = false;
   bool known = false;  // the catalogue had a row for it

@@ -97,18 +97,21 @@ bool TileChecker::files_are_as_written(tiles::TileKey key, TileRecord& row) cons
   return true;
 }
 
-TileCheck TileChecker::check(tiles::TileKey key, const std::vector<const ImageRecord*>& candidates,
-                             const TileRecord* row) const {
+TileCheck TileChecker::check(tiles::TileKey key, const Coverage& coverage, const TileRecord* row) const {
   TileCheck check;
-  const std::string of_candidates = candidates_digest(key, candidates, settings_digest_);
+  const std::string of_candidates = coverage.candidates_digest(key, settings_digest_);
+  bool whole = false;
   if (row) {
     check.row = *row;
-    const bool whole = files_are_as_written(key, check.row);
+    whole = files_are_as_written(key, check.row);
     if (whole && row->candidates_digest == of_candidates) {
       check.fresh = true;
       check.why = "the photographs that may show it are those it was made from";
       return check;
     }
+  }
+  const std::vector<const ImageRecord*> candidates = coverage.candidates(key);
+  if (row) {
     const TileGeometry geometry(key, candidates, settings_);
     const TileInputs inputs(geometry, heights_of(*row));
     const bool same_inputs = inputs.digest(key, geometry, candidates, settings_digest_) == row->input_digest;

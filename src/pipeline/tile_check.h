@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "index/catalogue.h"
+#include "pipeline/coverage.h"
 #include "pipeline/project.h"
 #include "tiles/tile_store.h"
 
@@ -26,9 +27,8 @@ class TileChecker {
   // `read_everything`: checksums of all files are compared (--verify), not only their sizes and times.
   TileChecker(const ProjectSettings& settings, const tiles::TileStore& store, bool read_everything);
 
-  // `candidates`: the used photographs that may show the tile, sorted by name; `row` null: the catalogue has none.
-  TileCheck check(tiles::TileKey key, const std::vector<const index::ImageRecord*>& candidates,
-                  const index::TileRecord* row) const;
+  // `row` null: the catalogue has none.
+  TileCheck check(tiles::TileKey key, const Coverage& coverage, const index::TileRecord* row) const;
 
   // Whether the files are as the row says; the stamp of the row is renewed if they were merely touched.
   bool files_are_as_written(tiles::TileKey key, index::TileRecord& row) const;

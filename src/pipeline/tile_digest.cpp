@@ -51,12 +51,9 @@ std::string view_digest(const ImageRecord& image) {
          camera_and_pose_digest(image).substr(0, kShortDigits);
 }
 
-std::string candidates_digest(tiles::TileKey key, const std::vector<const ImageRecord*>& candidates,
-                              const std::string& settings) {
+std::string photograph_digest(const ImageRecord& image) {
   raster::Digest digest;
-  digest.add_field(key.name());
-  digest.add_field(settings);
-  for (const ImageRecord* image : candidates) add_photograph(digest, *image);
+  add_photograph(digest, image);
   return digest.hex();
 }
 

@@ -18,9 +18,8 @@ std::string settings_digest(const ProjectSettings& settings);
 // Of one photograph, as "<bytes>-<camera and pose>": says which of them changed.
 std::string view_digest(const index::ImageRecord& image);
 
-// Of all photographs that may show a tile. Cheap: when it is as it was, so is the tile.
-std::string candidates_digest(tiles::TileKey key, const std::vector<const index::ImageRecord*>& candidates,
-                              const std::string& settings);
+// Of one photograph: its name, bytes, camera and pose.
+std::string photograph_digest(const index::ImageRecord& image);
 
 // The photographs that a tile is swept with, in both steps, and all that the rest of them decides. Photographs that may
 // show the tile but serve neither step have no part in it: they come and go without the tile being computed again.

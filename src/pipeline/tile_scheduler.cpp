@@ -31,7 +31,7 @@ index::TileRecord record_of(const StaleTile& tile, const TileOutcome& outcome, c
   record.level = tile.key.level;
   record.extent = update.settings.lattice.extent(tile.key);
   record.input_digest = outcome.input_digest;
-  record.candidates_digest = candidates_digest(tile.key, tile.candidates, update.checker.settings());
+  record.candidates_digest = tile.candidates_digest;
   record.views = outcome.views;
   for (const std::string& view : outcome.views)
     record.view_digests.push_back(view_digest(**std::find_if(tile.candidates.begin(), tile.candidates.end(),

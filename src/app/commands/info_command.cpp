@@ -81,7 +81,7 @@ void print_state(const pipeline::ProjectPaths& paths, const pipeline::ProjectSet
   if (static_cast<int>(candidates.size()) < settings.configuration.sweep.min_views)
     return print("It is touched by " + std::to_string(candidates.size()) + " photographs, too few for a tile.");
   const tiles::TileStore store = pipeline::open_store(paths, settings);
-  const pipeline::TileCheck check = pipeline::TileChecker(settings, store, false).check(key, candidates, row);
+  const pipeline::TileCheck check = pipeline::TileChecker(settings, store, false).check(key, coverage, row);
   print(std::string(check.fresh ? "It is up to date: " : "It is stale, the next run computes it: ") + check.why + ".");
 }
 
