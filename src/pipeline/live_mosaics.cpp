@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.h"
 #include "tiles/virtual_mosaic.h"
 
 namespace skysweep::pipeline {
@@ -24,9 +23,8 @@ void LiveMosaics::write_without(const MapRecords& records, const std::vector<til
     (key.level == 0 ? finest : parents).push_back(key);
   }
   if (finest.empty()) {
-    std::error_code error;
-    for (const char* name : {"dsm", "ortho"}) std::filesystem::remove(paths_.vrt(name), error);
-    if (error) throw failure("cannot remove the mosaics of " + paths_.folder.string() + ": " + error.message());
+    tiles::remove_virtual_mosaic(store_, "dem", paths_.vrt("dsm"));
+    tiles::remove_virtual_mosaic(store_, "color", paths_.vrt("ortho"));
     return;
   }
   const std::string digest = records.digest();

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "core/check.h"
+#include "core/error.h"
 #include "raster/atomic_file.h"
 
 namespace skysweep::tiles {
@@ -164,7 +165,20 @@ fs::path overview_path(const TileStore& store, const std::string& layer, int lev
   return store.path(TileKey::top(), layer).parent_path() / ("l" + std::to_string(level) + ".vrt");
 }
 
+void remove_overviews(const TileStore& store, const std::string& layer, int from_level) {
+  std::error_code ignored;  // nobody names them any more
+  for (int level = from_level; cells_divide(store.lattice().tile_cells, level); ++level)
+    fs::remove(overview_path(store, layer, level), ignored);
+}
+
 }  // namespace
+
+void remove_virtual_mosaic(const TileStore& store, const std::string& layer, const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw failure("cannot remove " + path.string() + ": " + error.message());
+  remove_overviews(store, layer, 1);
+}
 
 void write_virtual_mosaic(const TileStore& store, const std::string& layer, const std::vector<TileKey>& finest,
                           const std::vector<TileKey>& parents, const std::string& digest, const fs::path& path) {
@@ -183,11 +197,7 @@ void write_virtual_mosaic(const TileStore& store, const std::string& layer, cons
   }
   const VirtualRaster whole(store, layer, 0, window, path);
   write_if_changed(path, whole.text(finest, overviews, digest));
-  // Of levels that the map no longer has; nobody names them any more.
-  for (int level = static_cast<int>(overviews.size()) + 1; cells_divide(cells, level); ++level) {
-    std::error_code ignored;
-    fs::remove(overview_path(store, layer, level), ignored);
-  }
+  remove_overviews(store, layer, static_cast<int>(overviews.size()) + 1);
 }
 
 }  // namespace skysweep::tiles

@@ -20,4 +20,7 @@ void write_virtual_mosaic(const TileStore& store, const std::string& layer, cons
                           const std::vector<TileKey>& parents, const std::string& digest,
                           const std::filesystem::path& path);
 
+// Removes it and its overviews, of a map that has no tile any more. Throws Error(failed).
+void remove_virtual_mosaic(const TileStore& store, const std::string& layer, const std::filesystem::path& path);
+
 }  // namespace skysweep::tiles

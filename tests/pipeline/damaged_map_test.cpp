@@ -97,6 +97,23 @@ TEST_F(DamagedMap, temporary_files_of_a_crash_are_swept_away) {
   expect_same_files(before, tile_files(request("map")));
 }
 
+// The catalogue says of a photograph what its size and times do not contradict.
+TEST_F(DamagedMap, verify_believes_no_record_of_a_photograph) {
+  const auto misremember = [&] {
+    index::Catalogue file = catalogue();
+    index::ImageRecord image = file.images().front();
+    image.content_digest = "of other bytes";
+    image.stamp = raster::file_stamp(request("map").images / image.name).value();
+    file.put_images({image});
+  };
+  misremember();
+  RunRequest verify = request("map");
+  verify.verify = true;
+  EXPECT_EQ(run(verify).tiles_computed, 0);
+  misremember();
+  EXPECT_GT(run(request("map")).tiles_computed, 0);
+}
+
 TEST_F(DamagedMap, photograph_that_nobody_touched_is_not_read_again) {
   const RunRequest r = request("map");
   SerialExecutor executor;
