@@ -11,14 +11,8 @@ using index::TileRecord;
 using tiles::TileKey;
 
 MapRecords::MapRecords(index::Catalogue& catalogue) : catalogue_(catalogue) {
-  std::vector<std::string> strange;
-  for (TileRecord& row : catalogue.tiles()) {
-    if (const auto key = TileKey::parse(row.name))
-      rows_[*key] = std::move(row);
-    else
-      strange.push_back(row.name);
-  }
-  if (!strange.empty()) catalogue.remove_tiles(strange);
+  for (TileRecord& row : catalogue.tiles())
+    if (const auto key = TileKey::parse(row.name)) rows_[*key] = std::move(row);
 }
 
 const TileRecord* MapRecords::find(TileKey key) const {

@@ -15,7 +15,7 @@ namespace skysweep::pipeline {
 
 class MapRecords {
  public:
-  // Reads all rows; a row whose name is no tile's is dropped.
+  // Reads all rows; a row whose name is no tile's is passed over.
   explicit MapRecords(index::Catalogue& catalogue);
 
   const index::TileRecord* find(tiles::TileKey key) const;  // null: none

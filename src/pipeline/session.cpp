@@ -67,6 +67,29 @@ std::set<std::string> removals_of(const RunRequest& request, const ProjectPaths&
   return changed_removals(before, photographs, request.remove, request.restore);
 }
 
+// What earlier runs left.
+struct EarlierRuns {
+  std::optional<OpenCatalogue> open;          // of a run
+  std::optional<index::Catalogue> looked_at;  // of a dry run
+  std::vector<index::ImageRecord> images;     // none when everything is to be read
+};
+
+EarlierRuns look_at_earlier_runs(const RunRequest& request, const ProjectChoice& choice, const ProjectPaths& paths,
+                                 Progress& progress) {
+  EarlierRuns earlier;
+  if (!choice.existing) return earlier;
+  if (request.dry_run) {
+    earlier.looked_at = look_at_catalogue(paths, progress);
+    if (earlier.looked_at) earlier.images = earlier.looked_at->images();
+  } else {
+    raster::remove_temporary_files(paths.folder);
+    earlier.open = open_catalogue(paths, choice.existing->crs_wkt, progress);
+    earlier.images = earlier.open->images;
+  }
+  if (request.verify) earlier.images.clear();
+  return earlier;
+}
+
 // What a run would do, without a trace.
 void plan_only(const RunRequest& request, const ProjectPaths& paths, const Coverage& coverage,
                std::optional<index::Catalogue>& catalogue, RunSummary& summary, Executor& executor) {
@@ -91,20 +114,9 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
 
   const std::optional<ProjectLock> lock = lock_for(request);
   const ProjectChoice choice = choose_project(request, paths);
-  std::optional<OpenCatalogue> open;
-  std::optional<index::Catalogue> looked_at;  // of a dry run
-  std::vector<index::ImageRecord> known;
-  if (choice.existing && request.dry_run) {
-    looked_at = look_at_catalogue(paths, progress);
-    if (looked_at) known = looked_at->images();
-  } else if (choice.existing) {
-    raster::remove_temporary_files(paths.folder);
-    open = open_catalogue(paths, choice.existing->crs_wkt, progress);
-    known = open->images;
-  }
-  if (request.verify) known.clear();  // everything is to be read
+  EarlierRuns earlier = look_at_earlier_runs(request, choice, paths, progress);
   PhotographSet photographs = collect_photographs(request.images, request.poses, request.origin,
-                                                  choice.configuration.photographs, executor, known);
+                                                  choice.configuration.photographs, executor, earlier.images);
   for (const std::string& note : photographs.notes) progress.note(note);
   for (const std::string& warning : photographs.warnings) progress.warn(warning);
   report_refusals(photographs.records, progress);
@@ -126,20 +138,29 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
   {
     const Coverage coverage(photographs.records, summary.settings);
     summary.tiles_planned = static_cast<int>(coverage.tiles(request.area).size());
-    if (request.dry_run) plan_only(request, paths, coverage, looked_at, summary, executor);
+    if (request.dry_run) plan_only(request, paths, coverage, earlier.looked_at, summary, executor);
   }
   if (!request.dry_run) {
     if (!choice.existing) {
       require_disk_space(request.project, disk_bytes(summary.tiles_planned, summary.settings));
       make_project(paths, summary.settings, request.fresh);
-      open = open_catalogue(paths, summary.settings.crs_wkt, progress);
+      earlier.open = open_catalogue(paths, summary.settings.crs_wkt, progress);
     }
     if (!request.remove.empty() || !request.restore.empty()) write_removals(paths, removed);
     const tiles::TileStore store = open_store(paths, summary.settings);
     const TileChecker checker(summary.settings, store, request.verify);
     LiveMosaics mosaics(paths, store);
-    MapUpdate update{paths,   store,        *open->file,         *open->tiles, summary.settings, checker, mosaics,
-                     request, open->images, photographs.records, photos};
+    MapUpdate update{paths,
+                     store,
+                     *earlier.open->file,
+                     *earlier.open->tiles,
+                     summary.settings,
+                     checker,
+                     mosaics,
+                     request,
+                     earlier.open->images,
+                     photographs.records,
+                     photos};
     update_map(update, summary, executor, progress, stop);
   }
   summary.images = std::move(photographs.records);
