@@ -77,6 +77,7 @@ std::string TileInputs::digest(tiles::TileKey key, const TileGeometry& geometry,
   };
   const sweep::HeightRange guessed = geometry.guessed_heights();
   add_views(guess, guessed);
+  add_range(digest, geometry.guess_is_compared_on() ? std::optional(guessed) : std::nullopt);
   add_range(digest, geometry.searched_heights());
   add_range(digest, heights);
   add_views(chosen, heights.value_or(guessed));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sweep/luminance_gains.h"
+
 namespace skysweep::pipeline {
 
 using sweep::HeightRange;
@@ -40,6 +42,8 @@ HeightRange TileGeometry::guessed_heights() const {
   const double ground = heights[heights.size() / 2] - settings_.search.ground_depth_m;
   return {ground, ground};
 }
+
+bool TileGeometry::guess_is_compared_on() const { return sweep::compares_luminance(settings_.configuration.sweep); }
 
 HeightRange TileGeometry::searched_heights() const {
   if (settings_.search.heights) return *settings_.search.heights;
