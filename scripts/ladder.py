@@ -20,7 +20,7 @@ BEGIN, END = "<!-- ladder: begin -->\n", "<!-- ladder: end -->\n"
 CLASSIC = {
     "normalization_radius_px": 0, "normalization_tolerance": 0, "window_level_max": 0, "coarse_levels": 0,
     "aggregation": '"better-half"', "smoothing": '"none"', "few_views_penalty": 0.0, "max_cost_to_mean": 1.0,
-    "follow_slopes": "false", "edge_contrast": 0.0, "visibility_passes": 0, "close_gap_cells": 0, "fill": "false",
+    "follow_slopes": "false", "edge_contrast": 0.0, "visibility_passes": 0, "close_gap_cells": 0, "fill": "false", "edge_passes": 0,
     "compensate_exposure": "false",
 }
 # Each rung keeps what the ones above it changed.
@@ -37,7 +37,8 @@ RUNGS = [
     ("smoothing along slopes", {"follow_slopes": "true"}),
     ("cheaper steps at edges of the picture", {"edge_contrast": 12.0}),
     ("views that see past the surface", {"visibility_passes": 1, "few_views_penalty": 1.5}),
-    ("gaps filled: `balanced`", {"close_gap_cells": 128, "fill": "true"}),
+    ("gaps filled", {"close_gap_cells": 128, "fill": "true"}),
+    ("edges settled by the colours at the cell: `balanced`", {"edge_passes": 3}),
 ]
 # Other costs in the last rung's place, each against it; patches need no normalised luminance.
 PATCHES = {"normalization_radius_px": 0, "normalization_tolerance": 0, "window_level_max": 0}

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/option_values.h"
+#include "app/printable.h"
 #include "core/error.h"
 
 namespace skysweep::app {
@@ -58,7 +59,7 @@ struct Console::Impl {
 
   void log(spdlog::level::level_enum level, const std::string& text) {
     if (file)
-      file->log(level, "{}", text);
+      file->log(level, "{}", printable(text));
     else
       before_file.emplace_back(level, text);
   }
@@ -72,7 +73,7 @@ struct Console::Impl {
     if (json) return event({{"event", kind}, {"text", text}});
     if (!show) return;
     close_line();
-    std::fprintf(std::string(kind) == "warning" ? stderr : stdout, "%s\n", text.c_str());
+    std::fprintf(std::string(kind) == "warning" ? stderr : stdout, "%s\n", printable(text).c_str());
     std::fflush(stdout);
   }
 
@@ -131,7 +132,7 @@ void Console::log_to(const std::filesystem::path& file) {
   }
   impl_->file->set_pattern("%Y-%m-%d %H:%M:%S %l %v");
   impl_->file->flush_on(spdlog::level::info);
-  for (const auto& [level, text] : impl_->before_file) impl_->file->log(level, "{}", text);
+  for (const auto& [level, text] : impl_->before_file) impl_->file->log(level, "{}", printable(text));
   impl_->before_file.clear();
 }
 

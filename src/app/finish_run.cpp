@@ -4,13 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/option_values.h"
+#include "core/error.h"
 #include "export/mosaic.h"
+#include "index/catalogue.h"
 #include "pipeline/tbb_executor.h"
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
+#include "raster/digest.h"
+#include "raster/file_stamp.h"
 #include "raster/geotiff.h"
 #include "raster/hillshade.h"
 #include "raster/photo.h"
@@ -43,23 +48,83 @@ raster::Raster<float> thinned(const raster::Raster<float>& dsm) {
   return out;
 }
 
-// Mosaics and preview; false if no cell of the map is known.
-bool write_products(const pipeline::RunRequest& request, const pipeline::RunSummary& summary, Console& console) {
-  const pipeline::ProjectPaths paths(request.project);
-  const tiles::TileStore store = pipeline::open_store(paths, summary.settings);
-  Box2d extent = exports::known_extent(store);
-  if (request.area) extent = intersection(extent, *request.area);
-  if (extent.empty()) return false;
-  console.begin("mosaics", static_cast<int>(kMosaics.size()) + 1);
-  pipeline::TbbExecutor executor(request.threads);
-  executor.parallel_for(static_cast<int>(kMosaics.size()), [&](int i) {
-    exports::write_mosaic(store, kMosaics[i].layer, extent, paths.mosaic(kMosaics[i].file));
+// The files made from the tiles, and what each was made from.
+class Products {
+ public:
+  Products(const pipeline::RunRequest& request, const pipeline::RunSummary& summary)
+      : paths_(request.project),
+        request_(request),
+        summary_(summary),
+        catalogue_(paths_.catalogue(), summary.settings.crs_wkt) {
+    raster::Digest digest;
+    digest.add_field(summary.map_digest);
+    if (request.area)
+      for (const double v : {request.area->min.x, request.area->min.y, request.area->max.x, request.area->max.y})
+        digest.add_field(std::to_string(v));
+    digest_ = digest.hex();
+  }
+
+  // Whether all are there, as they were written, of the map as it is now.
+  bool up_to_date() const {
+    std::map<std::string, index::ProductRecord> recorded;
+    for (const index::ProductRecord& product : catalogue_.products()) recorded[product.name] = product;
+    return std::all_of(kFiles.begin(), kFiles.end(), [&](const char* file) {
+      const auto found = recorded.find(file);
+      return found != recorded.end() && found->second.digest == digest_ &&
+             found->second.stamp == raster::file_stamp(paths_.folder / file);
+    });
+  }
+
+  // False if no cell of the map is known; then there are none.
+  bool write(Console& console) {
+    const tiles::TileStore store = pipeline::open_store(paths_, summary_.settings);
+    Box2d extent = exports::known_extent(store);
+    if (request_.area) extent = intersection(extent, *request_.area);
+    if (extent.empty()) {
+      remove();
+      return false;
+    }
+    console.begin("mosaics", static_cast<int>(kMosaics.size()) + 1);
+    pipeline::TbbExecutor executor(request_.threads);
+    executor.parallel_for(static_cast<int>(kMosaics.size()), [&](int i) {
+      exports::write_mosaic(store, kMosaics[i].layer, extent, paths_.mosaic(kMosaics[i].file));
+      console.advance();
+    });
+    const raster::Raster<float> dsm = raster::read_float_raster(paths_.mosaic("dsm"));
+    raster::write_image(paths_.folder / "preview.png", raster::hillshade(thinned(dsm)));
     console.advance();
-  });
-  const raster::Raster<float> dsm = raster::read_float_raster(paths.mosaic("dsm"));
-  raster::write_image(paths.folder / "preview.png", raster::hillshade(thinned(dsm)));
-  console.advance();
-  return true;
+    record();
+    return true;
+  }
+
+ private:
+  static constexpr std::array kFiles = {"dsm.tif", "ortho.tif", "confidence.tif", "mask.tif", "preview.png"};
+
+  void record() {
+    std::vector<index::ProductRecord> products;
+    for (const char* file : kFiles)
+      products.push_back({file, digest_, raster::file_stamp(paths_.folder / file).value_or("")});
+    catalogue_.put_products(products);
+  }
+
+  // Of a map that had heights once: nobody shall take them for this one.
+  void remove() {
+    std::error_code ignored;
+    for (const char* file : kFiles) std::filesystem::remove(paths_.folder / file, ignored);
+    catalogue_.remove_products({kFiles.begin(), kFiles.end()});
+  }
+
+  pipeline::ProjectPaths paths_;
+  const pipeline::RunRequest& request_;
+  const pipeline::RunSummary& summary_;
+  index::Catalogue catalogue_;
+  std::string digest_;
+};
+
+// A tile that went bad since its sizes and times were looked at.
+Error with_advice(const Error& error) {
+  if (error.kind() != ErrorKind::bad_input) return error;
+  return {error.kind(), std::string(error.what()) + "; run again with --verify, which makes damaged tiles anew"};
 }
 
 nlohmann::json report_of(const pipeline::RunSummary& summary, double seconds) {
@@ -84,7 +149,9 @@ nlohmann::json report_of(const pipeline::RunSummary& summary, double seconds) {
             {"computed", summary.tiles_computed},
             {"kept", summary.tiles_kept},
             {"empty", summary.tiles_empty},
-            {"parents_written", summary.parents_written}}},
+            {"removed", summary.tiles_removed},
+            {"parents_written", summary.parents_written},
+            {"quadrants_made", summary.quadrants_made}}},
           {"cells", {{"measured", summary.cells_measured}, {"filled", summary.cells_filled}}},
           {"samples", summary.samples},
           {"photographs_decoded", summary.photographs_decoded},
@@ -120,10 +187,16 @@ void say_summary(const pipeline::RunSummary& summary, const std::filesystem::pat
 void finish_run(const pipeline::RunRequest& request, const pipeline::RunSummary& summary,
                 std::chrono::steady_clock::time_point start, Console& console) {
   const pipeline::ProjectPaths paths(request.project);
-  const bool products_there =
-      std::filesystem::exists(paths.mosaic("dsm")) && std::filesystem::exists(paths.mosaic("mask"));
-  const bool wanted = summary.changed() || !products_there || request.area;
-  const bool has_map = !summary.interrupted && wanted ? write_products(request, summary, console) : products_there;
+  Products products(request, summary);
+  bool has_map = true;
+  try {
+    if (summary.interrupted)
+      has_map = std::filesystem::exists(paths.mosaic("dsm"));
+    else if (!products.up_to_date())
+      has_map = products.write(console);
+  } catch (const Error& error) {
+    throw with_advice(error);
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   raster::write_bytes_atomically(
       paths.folder / "report.json",

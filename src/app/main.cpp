@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/commands/commands.h"
+#include "app/printable.h"
 #include "core/error.h"
 #include "pipeline/project.h"
 
@@ -39,10 +40,10 @@ int main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const skysweep::Error& error) {
-    std::cerr << "skysweep: " << error.what() << "\n";
+    std::cerr << "skysweep: " << skysweep::app::printable(error.what()) << "\n";
     return error.exit_code();
   } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << "skysweep: " << error.what() << "\n";
+    std::cerr << "skysweep: " << skysweep::app::printable(error.what()) << "\n";
     return 1;
   } catch (const std::bad_alloc&) {
     std::cerr << "skysweep: out of memory; allow less with --memory, which plans before it starts.\n";

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "index/catalogue.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "core/error.h"
 #include "index/catalogue/geopackage.h"
 #include "index/catalogue/image_rows.h"
+#include "index/catalogue/product_rows.h"
 #include "index/catalogue/schema.h"
 #include "index/catalogue/tile_rows.h"
 
@@ -44,13 +47,23 @@ void make_file(const std::filesystem::path& path, const std::string& crs_wkt) {
   if (error) throw cannot_write(path, error.message());
 }
 
-DatasetPtr open_file(const std::filesystem::path& path) {
+// What SQLite finds wrong with its pages; empty if nothing.
+std::string what_is_broken(GDALDataset& dataset) {
+  std::string verdict;
+  for_each_row(dataset, "PRAGMA quick_check(1)", [&](const OGRFeature& row) { verdict = row.GetFieldAsString(0); });
+  return verdict == "ok" ? "" : "its pages do not fit together (" + verdict + ")";
+}
+
+DatasetPtr open_file(const std::filesystem::path& path, unsigned access) {
   const QuietGdal gdal;
   const char* const drivers[] = {"GPKG", nullptr};
-  DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE, drivers, nullptr, nullptr));
+  DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | access, drivers, nullptr, nullptr));
   if (!gdal.first_failure().empty()) throw damaged(path, gdal.first_failure());
   if (!dataset) throw damaged(path, "it is no GeoPackage");
   if (const std::string missing = what_is_missing(*dataset); !missing.empty()) throw damaged(path, "it " + missing);
+  const std::string broken = what_is_broken(*dataset);
+  if (!gdal.first_failure().empty()) throw damaged(path, gdal.first_failure());
+  if (!broken.empty()) throw damaged(path, broken);
   return dataset;
 }
 
@@ -93,7 +106,16 @@ struct Catalogue::Impl {
 Catalogue::Catalogue(const std::filesystem::path& path, const std::string& crs_wkt) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) make_file(path, crs_wkt);
-  impl_.reset(new Impl{path, open_file(path)});
+  impl_.reset(new Impl{path, open_file(path, GDAL_OF_UPDATE)});
+}
+Catalogue::Catalogue(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Catalogue Catalogue::open_existing(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw bad_input("the catalogue " + path.string() + " is missing");
+  // What a crash left in the journal can only be undone by one who may write.
+  const bool writable = ::access(path.c_str(), W_OK) == 0;
+  return Catalogue(std::unique_ptr<Impl>(new Impl{path, open_file(path, writable ? GDAL_OF_UPDATE : 0u)}));
 }
 Catalogue::~Catalogue() = default;
 Catalogue::Catalogue(Catalogue&&) noexcept = default;
@@ -124,5 +146,15 @@ void Catalogue::remove_tiles(const std::vector<std::string>& names) {
 }
 
 std::vector<TileRecord> Catalogue::tiles() const { return impl_->read(tile_rows); }
+
+void Catalogue::put_products(const std::vector<ProductRecord>& products) {
+  impl_->write([&](GDALDataset& dataset) { put_product_rows(dataset, products); });
+}
+
+void Catalogue::remove_products(const std::vector<std::string>& names) {
+  impl_->write([&](GDALDataset& dataset) { remove_rows(dataset, "products", names); });
+}
+
+std::vector<ProductRecord> Catalogue::products() const { return impl_->read(product_rows); }
 
 }  // namespace skysweep::index

@@ -8,6 +8,7 @@ const char* to_string(ImageStatus status) {
     case ImageStatus::used: return "used";
     case ImageStatus::oblique: return "oblique";
     case ImageStatus::refused: return "refused";
+    case ImageStatus::removed: return "removed";
   }
   return "unknown";
 }

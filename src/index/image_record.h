@@ -14,6 +14,7 @@ enum class ImageStatus {
   used,     // serves matching
   oblique,  // usable, but looks too far from nadir to be matched
   refused,  // cannot be used: see reason
+  removed,  // left out because the user said so (`run --remove`)
 };
 
 struct ImageRecord {
@@ -26,6 +27,9 @@ struct ImageRecord {
   std::string reason;          // a sentence when the status is not `used`
   std::string content_digest;  // of the file's bytes
   long long file_bytes = 0;
+  std::string stamp;  // size and times of the file (raster::file_stamp) when the digest was taken; empty: look again
+
+  friend bool operator==(const ImageRecord&, const ImageRecord&) = default;
 };
 
 // A refused photograph may have no pose and no camera: model.width_px == 0 then.

@@ -3,11 +3,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
+#include <set>
+#include <string_view>
 
+#include "core/check.h"
+#include "pipeline/tile_digest.h"
 #include "pipeline/tile_geometry.h"
+#include "raster/digest.h"
 
 namespace skysweep::pipeline {
+
+using tiles::TileKey;
+
 namespace {
 
 constexpr double kSlackM = 1e-3;  // the index answers in world coordinates; the exact test has the last word
@@ -40,66 +47,118 @@ std::uint64_t morton(std::uint32_t x, std::uint32_t y) {
 }  // namespace
 
 Coverage::Coverage(const std::vector<index::ImageRecord>& records, const ProjectSettings& settings)
-    : records_(records), settings_(settings) {
-  for (int i = 0; i < static_cast<int>(records.size()); ++i) {
-    if (records[i].status != index::ImageStatus::used) continue;
-    const Box3d box = pyramid_box(camera::Camera(records[i].model, records[i].pose), settings.search);
-    index_.insert(i, box, true);
-  }
+    : settings_(settings) {
+  for (const index::ImageRecord& record : records) add(record);
 }
 
-std::vector<tiles::TileKey> Coverage::tiles(const std::optional<Box2d>& area) const {
-  const Box2d mapped = index_.mapped_area();
-  if (mapped.empty()) return {};
-  const tiles::Lattice& lattice = settings_.lattice;
-  const tiles::TileKey first = lattice.key_at(0, mapped.min);
-  std::vector<tiles::TileKey> keys;
-  for (const tiles::TileKey key : touched_tiles(mapped)) {
-    if (area && !area->intersects(lattice.extent(key))) continue;
-    if (static_cast<int>(candidates(key).size()) >= settings_.configuration.sweep.min_views) keys.push_back(key);
-  }
-  std::sort(keys.begin(), keys.end(), [&](tiles::TileKey a, tiles::TileKey b) {
-    const auto position = [&](tiles::TileKey k) {
-      return morton(static_cast<std::uint32_t>(k.x - first.x), static_cast<std::uint32_t>(k.y - first.y));
-    };
-    return position(a) < position(b);
-  });
-  return keys;
+void Coverage::add(const index::ImageRecord& record) {
+  if (record.status != index::ImageStatus::used) return;
+  const int id = static_cast<int>(by_id_.size());
+  const bool is_new = ids_.emplace(record.name, id).second;
+  SKY_CHECK(is_new);
+  const Box3d box = pyramid_box(camera::Camera(record.model, record.pose), settings_.search);
+  by_id_.push_back({&record, box.ground(), {}});
+  const std::string digest = photograph_digest(record);
+  SKY_CHECK_EQ(digest.size(), by_id_.back().digest.size());
+  std::copy(digest.begin(), digest.end(), by_id_.back().digest.begin());
+  index_.insert(id, box, false);  // all of them count, so that the index need not keep those that do apart
+}
+
+void Coverage::remove(const std::string& name) {
+  const auto found = ids_.find(name);
+  if (found == ids_.end()) return;
+  index_.remove(found->second);
+  by_id_[static_cast<std::size_t>(found->second)].record = nullptr;
+  ids_.erase(found);
 }
 
 // Photograph by photograph, not over the box around all of them: one position without a fix, at (0, 0), would make
 // that as large as a continent.
-std::set<tiles::TileKey> Coverage::touched_tiles(const Box2d& mapped) const {
+std::vector<TileKey> Coverage::touched(const index::ImageRecord& record) const {
   const double reach = settings_.configuration.tiles.collar_cells * settings_.lattice.cell_m + kSlackM;
-  std::set<tiles::TileKey> keys;
-  for (const index::ImageRecord& record : records_) {
-    if (record.status != index::ImageStatus::used) continue;
-    const Box2d box = pyramid_box(camera::Camera(record.model, record.pose), settings_.search).ground();
-    const Vec2d low{std::max(box.min.x - reach, mapped.min.x), std::max(box.min.y - reach, mapped.min.y)};
-    const Vec2d high{std::min(box.max.x + reach, mapped.max.x), std::min(box.max.y + reach, mapped.max.y)};
-    const tiles::TileKey first = settings_.lattice.key_at(0, low), last = settings_.lattice.key_at(0, high);
-    for (int y = first.y; y <= last.y; ++y)
-      for (int x = first.x; x <= last.x; ++x) keys.insert({0, x, y});
-  }
+  const Box2d mapped = index_.extent().ground();
+  const Box2d box = pyramid_box(camera::Camera(record.model, record.pose), settings_.search).ground();
+  const Vec2d low{std::max(box.min.x - reach, mapped.min.x), std::max(box.min.y - reach, mapped.min.y)};
+  const Vec2d high{std::min(box.max.x + reach, mapped.max.x), std::min(box.max.y + reach, mapped.max.y)};
+  if (low.x > high.x || low.y > high.y) return {};
+  const TileKey first = settings_.lattice.key_at(0, low), last = settings_.lattice.key_at(0, high);
+  std::vector<TileKey> keys;
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x) keys.push_back({0, x, y});
   return keys;
 }
 
-std::vector<const index::ImageRecord*> Coverage::candidates(tiles::TileKey key) const {
+std::vector<TileKey> Coverage::tiles(const std::optional<Box2d>& area) const {
+  std::set<TileKey> touched_ones;
+  for (const Entry& entry : by_id_)
+    if (entry.record)
+      for (const TileKey key : touched(*entry.record)) touched_ones.insert(key);
+  std::vector<TileKey> keys;
+  for (const TileKey key : touched_ones) {
+    if (area && !area->intersects(settings_.lattice.extent(key))) continue;
+    if (is_mapped(key)) keys.push_back(key);
+  }
+  sort_along_curve(keys);
+  return keys;
+}
+
+bool Coverage::is_mapped(TileKey key) const {
+  return static_cast<int>(candidate_ids(key).size()) >= settings_.configuration.sweep.min_views;
+}
+
+std::vector<int> Coverage::candidate_ids(TileKey key) const {
   const Box2d world = tile_with_collar(key, settings_);
   const Box3d extent = index_.extent();
   const Box3d query{{world.min.x - kSlackM, world.min.y - kSlackM, extent.min.z},
                     {world.max.x + kSlackM, world.max.y + kSlackM, extent.max.z}};
+  std::vector<int> ids = index_.query(query);
+  std::erase_if(ids, [&](int id) { return !may_show(by_id_[static_cast<std::size_t>(id)], key, world); });
+  return ids;
+}
+
+std::vector<const index::ImageRecord*> Coverage::candidates(TileKey key) const {
+  std::vector<const index::ImageRecord*> found;
+  for (const int id : candidate_ids(key)) found.push_back(by_id_[static_cast<std::size_t>(id)].record);
+  std::sort(found.begin(), found.end(), [](const auto* a, const auto* b) { return a->name < b->name; });
+  return found;
+}
+
+// In the order of the digests themselves: as good as any that does not depend on the order of arrival.
+std::string Coverage::candidates_digest(TileKey key, const std::string& settings) const {
+  std::vector<std::string_view> photographs;
+  for (const int id : candidate_ids(key)) {
+    const Entry& entry = by_id_[static_cast<std::size_t>(id)];
+    photographs.emplace_back(entry.digest.data(), entry.digest.size());
+  }
+  std::sort(photographs.begin(), photographs.end());
+  raster::Digest digest;
+  digest.add_field(key.name());
+  digest.add_field(settings);
+  for (const std::string_view photograph : photographs) digest.add_bytes(photograph);
+  return digest.hex();
+}
+
+// World coordinates decide where rounding cannot: well inside. Near the border the tile's own frame has the last word.
+bool Coverage::may_show(const Entry& entry, TileKey key, const Box2d& tile) const {
+  const Box2d well_inside{{tile.min.x + kSlackM, tile.min.y + kSlackM}, {tile.max.x - kSlackM, tile.max.y - kSlackM}};
+  if (entry.ground.intersects(well_inside)) return true;
   const Vec2d corner = settings_.lattice.south_west_corner(key);
   const TileOptions& options = settings_.configuration.tiles;
   const double cell = settings_.lattice.cell_m, collar = options.collar_cells * cell;
   const Box2d own{{-collar, -collar}, {options.cells * cell + collar, options.cells * cell + collar}};
-  std::vector<const index::ImageRecord*> found;
-  for (const int id : index_.query(query)) {
-    const index::ImageRecord& image = records_[id];
-    const camera::Camera local = camera::Camera(image.model, image.pose).relative_to({corner.x, corner.y, 0});
-    if (pyramid_box(local, settings_.search).ground().intersects(own)) found.push_back(&image);
-  }
-  return found;
+  const camera::Camera local =
+      camera::Camera(entry.record->model, entry.record->pose).relative_to({corner.x, corner.y, 0});
+  return pyramid_box(local, settings_.search).ground().intersects(own);
+}
+
+void sort_along_curve(std::vector<TileKey>& keys) {
+  constexpr int kFirst = -(1 << 28);  // no index is lower
+  std::sort(keys.begin(), keys.end(), [](TileKey a, TileKey b) {
+    const auto position = [](TileKey k) {
+      return morton(static_cast<std::uint32_t>(k.x - kFirst), static_cast<std::uint32_t>(k.y - kFirst));
+    };
+    return position(a) < position(b);
+  });
 }
 
 std::vector<Vec2d> ground_footprint(const index::ImageRecord& image, const SearchRange& search) {

@@ -131,9 +131,10 @@ ProjectSettings new_project_settings(const RunRequest& request, const Configurat
 void make_project(const ProjectPaths& paths, const ProjectSettings& settings, bool fresh) {
   raster::require_writable_folder(paths.folder);
   if (fresh) {
-    std::filesystem::remove(paths.settings());
-    std::filesystem::remove(paths.catalogue());
+    // The settings last, by being replaced: whatever a crash leaves is the old project, less some of its tiles.
     std::filesystem::remove_all(paths.tiles());
+    std::filesystem::remove(paths.catalogue());
+    std::filesystem::remove(paths.removals());
   }
   write_project(paths, settings);
 }

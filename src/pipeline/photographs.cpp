@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "formats/match_images.h"
 #include "raster/digest.h"
+#include "raster/file_stamp.h"
 #include "raster/photo.h"
 
 namespace skysweep::pipeline {
@@ -23,32 +24,52 @@ ImageRecord refused(const std::string& name, const std::string& reason) {
   return record;
 }
 
+// Whether the record of an earlier run still holds for the file: nobody touched it, and its camera has the same size.
+bool still_holds(const ImageRecord* known, const std::string& stamp, const camera::CameraModel& model) {
+  return known && known->status != ImageStatus::refused && !known->content_digest.empty() && known->stamp == stamp &&
+         known->model.width_px == model.width_px && known->model.height_px == model.height_px;
+}
+
+// Fills what is known of the file itself; a reason if it cannot be used.
+std::optional<std::string> read_file(const std::filesystem::path& path, const formats::PosedImage& posed,
+                                     ImageRecord& record) {
+  try {
+    record.stamp = raster::settled_file_stamp(path);
+    const raster::PhotoSize size = raster::read_photo_size(path);
+    const camera::CameraModel& model = posed.model;
+    if (size.width_px != model.width_px || size.height_px != model.height_px)
+      return path.string() + " has " + std::to_string(size.width_px) + " x " + std::to_string(size.height_px) +
+             " pixels, but its camera in " + posed.where + " has " + std::to_string(model.width_px) + " x " +
+             std::to_string(model.height_px) + ": use the photographs the poses were computed from.";
+    record.content_digest = raster::digest_of_file(path);
+    record.file_bytes = static_cast<long long>(std::filesystem::file_size(path));
+  } catch (const Error& error) {
+    return error.what();
+  } catch (const std::filesystem::filesystem_error& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
 // Everything that can be known without decoding: is it an image, of the camera's size, seen steeply enough?
 ImageRecord inspect(const std::filesystem::path& folder, const std::string& name, const formats::PosedImage& posed,
-                    const PhotographOptions& options) {
+                    const PhotographOptions& options, const ImageRecord* known) {
   const std::filesystem::path path = folder / name;
   ImageRecord record;
   record.name = name;
   record.model = posed.model;
   record.pose = posed.pose;
-  const auto refuse = [&](const std::string& reason) {
+  const std::optional<std::string> stamp = raster::file_stamp(path);
+  if (!stamp) throw photograph_vanished(path);
+  if (still_holds(known, *stamp, posed.model)) {
+    record.content_digest = known->content_digest;
+    record.file_bytes = known->file_bytes;
+    record.stamp = known->stamp;
+  } else if (std::optional<std::string> reason = read_file(path, posed, record)) {
+    if (!raster::file_stamp(path)) throw photograph_vanished(path);
     record.status = ImageStatus::refused;
-    record.reason = reason;
+    record.reason = std::move(*reason);
     return record;
-  };
-  try {
-    const raster::PhotoSize size = raster::read_photo_size(path);
-    const camera::CameraModel& model = posed.model;
-    if (size.width_px != model.width_px || size.height_px != model.height_px)
-      return refuse(path.string() + " has " + std::to_string(size.width_px) + " x " + std::to_string(size.height_px) +
-                    " pixels, but its camera in " + posed.where + " has " + std::to_string(model.width_px) + " x " +
-                    std::to_string(model.height_px) + ": use the photographs the poses were computed from.");
-    record.content_digest = raster::digest_of_file(path);
-    record.file_bytes = static_cast<long long>(std::filesystem::file_size(path));
-  } catch (const Error& error) {
-    return refuse(error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    return refuse(error.what());
   }
   const camera::Camera camera(posed.model, posed.pose);
   record.view_class = camera::classify(camera, options.near_vertical_limit_deg);
@@ -75,8 +96,15 @@ std::string nothing_usable(const std::vector<ImageRecord>& records, const std::f
 
 }  // namespace
 
+Error photograph_vanished(const std::filesystem::path& path) {
+  return failure("The photograph " + path.string() +
+                 " was there a moment ago and is gone: see that its disk or folder is still connected and run again. "
+                 "What the project holds is left as it is.");
+}
+
 PhotographSet collect_photographs(const std::filesystem::path& images, const std::filesystem::path& poses_path,
-                                  Vec3d origin, const PhotographOptions& options, Executor& executor) {
+                                  Vec3d origin, const PhotographOptions& options, Executor& executor,
+                                  const std::vector<ImageRecord>& known) {
   const std::vector<std::string> names = raster::list_photos(images);
   if (names.empty())
     throw bad_input("There are no photographs in " + images.string() +
@@ -91,10 +119,14 @@ PhotographSet collect_photographs(const std::filesystem::path& images, const std
   for (const formats::Unmatched& pose : matches.poses_without_photo) set.warnings.push_back(pose.reason);
   for (const formats::RefusedImage& pose : poses.refused) set.warnings.push_back(pose.reason);
 
+  std::map<std::string, const ImageRecord*> known_by_name;
+  for (const ImageRecord& record : known) known_by_name[record.name] = &record;
   set.records.resize(matches.matches.size());
   executor.parallel_for(static_cast<int>(matches.matches.size()), [&](int i) {
     const formats::ImageMatch& match = matches.matches[i];
-    set.records[i] = inspect(images, match.photo, poses.images[match.pose], options);
+    const auto found = known_by_name.find(match.photo);
+    const ImageRecord* of_earlier = found == known_by_name.end() ? nullptr : found->second;
+    set.records[i] = inspect(images, match.photo, poses.images[match.pose], options, of_earlier);
   });
   for (const formats::Unmatched& photo : matches.photos_without_pose)
     set.records.push_back(refused(photo.name, photo.reason));
@@ -113,7 +145,8 @@ PhotographSet collect_photographs(const std::filesystem::path& images, const std
 std::vector<std::string> refusals(const std::vector<ImageRecord>& records) {
   std::vector<std::string> reasons;
   for (const ImageRecord& record : records)
-    if (record.status != ImageStatus::used) reasons.push_back(record.name + ": " + record.reason);
+    if (record.status == ImageStatus::refused || record.status == ImageStatus::oblique)
+      reasons.push_back(record.name + ": " + record.reason);
   return reasons;
 }
 

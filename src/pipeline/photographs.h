@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/executor.h"
 #include "core/vec.h"
 #include "index/image_record.h"
@@ -21,9 +22,15 @@ struct PhotographSet {
 };
 
 // Lists the folder with its subfolders, pairs photographs with poses, checks each file's header and size against its
-// camera and takes its digest. Bad photographs cost themselves only; throws Error(bad_input) when nothing can be used.
+// camera and takes its digest. A file whose size and times are those of a record in `known` is not read again. Bad
+// photographs cost themselves only; throws Error(bad_input) when nothing can be used, and Error(failed) when files
+// vanish meanwhile: a disk that went away is no reason to map without it.
 PhotographSet collect_photographs(const std::filesystem::path& images, const std::filesystem::path& poses, Vec3d origin,
-                                  const PhotographOptions& options, Executor& executor);
+                                  const PhotographOptions& options, Executor& executor,
+                                  const std::vector<index::ImageRecord>& known = {});
+
+// "... is gone": says what to do about a photograph that was there a moment ago.
+Error photograph_vanished(const std::filesystem::path& path);
 
 // "3 of 18 photographs were refused", with the first few reasons; empty if none was.
 std::vector<std::string> refusals(const std::vector<index::ImageRecord>& records);

@@ -63,8 +63,8 @@ ProjectSettings read_project(const ProjectPaths& paths) {
     throw bad_input(paths.settings().string() + " was made by another version of Skysweep (format " +
                     std::to_string(version) + ", this one writes " + std::to_string(kFormatVersion) +
                     "): run again with --fresh.");
-  program.string("software");
   const std::string backend = required(program, "backend", program.string("backend"));
+  program.string("software");
   settings.backend = backend_named(backend, program);
   settings.instruction_set = required(program, "instruction_set", program.string("instruction_set"));
   if (settings.backend == sweep::Backend::gpu)
@@ -87,10 +87,11 @@ ProjectSettings read_project(const ProjectPaths& paths) {
 
 namespace {
 
-void write_settings(TomlWriter& toml, const ProjectSettings& settings) {
+// Without a name for the software it is left out.
+void write_settings(TomlWriter& toml, const ProjectSettings& settings, const std::string& software) {
   toml.section("program");
   toml.integer("format_version", kFormatVersion);
-  toml.string("software", software_name());
+  if (!software.empty()) toml.string("software", software);
   toml.string("backend", sweep::to_string(settings.backend));
   toml.string("instruction_set", settings.instruction_set);
   if (settings.backend == sweep::Backend::gpu) toml.string("gpu_device", settings.gpu_device);
@@ -115,7 +116,7 @@ void write_settings(TomlWriter& toml, const ProjectSettings& settings) {
 
 std::string settings_text(const ProjectSettings& settings) {
   TomlWriter toml;
-  write_settings(toml, settings);
+  write_settings(toml, settings, "");
   return toml.text();
 }
 
@@ -124,7 +125,7 @@ void write_project(const ProjectPaths& paths, const ProjectSettings& settings) {
   toml.comment("Fixed when the project was made: tiles depend on every line but those of [source].");
   toml.section("source");
   toml.string("images", settings.images.string());
-  write_settings(toml, settings);
+  write_settings(toml, settings, software_name());
   raster::write_bytes_atomically(paths.settings(), toml.text());
 }
 

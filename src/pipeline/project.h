@@ -16,7 +16,7 @@
 namespace skysweep::pipeline {
 
 // Changes when the same inputs would give other tiles.
-inline constexpr int kFormatVersion = 1;
+inline constexpr int kFormatVersion = 2;
 
 // Where surfaces are looked for below a camera.
 struct SearchRange {
@@ -44,6 +44,8 @@ struct ProjectPaths {
   std::filesystem::path settings() const { return folder / "project.toml"; }
   std::filesystem::path catalogue() const { return folder / "catalog.gpkg"; }
   std::filesystem::path tiles() const { return folder / "tiles"; }
+  std::filesystem::path removals() const { return folder / "removed.toml"; }
+  std::filesystem::path vrt(const std::string& name) const { return folder / (name + ".vrt"); }
   std::filesystem::path log() const { return folder / "run.log"; }
   std::filesystem::path mosaic(const std::string& name) const { return folder / (name + ".tif"); }
 };
@@ -52,7 +54,8 @@ bool project_exists(const ProjectPaths& paths);
 ProjectSettings read_project(const ProjectPaths& paths);
 void write_project(const ProjectPaths& paths, const ProjectSettings& settings);
 
-// Everything tiles depend on, as TOML: what project.toml holds, less the place of the photographs.
+// Everything tiles depend on, as TOML: what project.toml holds, less the place of the photographs and the software, of
+// which only the format version counts: a new release does not throw a map away that it would make in the same way.
 std::string settings_text(const ProjectSettings& settings);
 
 // "skysweep 0.1.0": goes into every raster.

@@ -2,14 +2,19 @@
 #include "pipeline/session.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/error.h"
-#include "index/catalogue.h"
 #include "pipeline/coverage.h"
+#include "pipeline/disk_need.h"
 #include "pipeline/ground_estimate.h"
 #include "pipeline/lattice_limits.h"
 #include "pipeline/open_project.h"
 #include "pipeline/photographs.h"
+#include "pipeline/project_lock.h"
+#include "pipeline/recover_catalogue.h"
+#include "pipeline/removals.h"
+#include "pipeline/stale_tiles.h"
 #include "pipeline/tbb_executor.h"
 #include "pipeline/tile_scheduler.h"
 #include "raster/atomic_file.h"
@@ -22,21 +27,6 @@ namespace {
 
 void report_refusals(const std::vector<index::ImageRecord>& records, Progress& progress) {
   for (const std::string& reason : refusals(records)) progress.warn(reason);
-}
-
-// At most: nothing compresses, every tile is full, and the mosaics repeat level 0.
-std::uint64_t disk_bytes(std::size_t tiles, const ProjectSettings& settings) {
-  constexpr std::uint64_t kBytesPerCell = 4 + 4 + 4 + 1, kBytesPerParentCell = kBytesPerCell + 4;
-  const auto cells = static_cast<std::uint64_t>(settings.lattice.tile_cells) * settings.lattice.tile_cells;
-  return tiles * cells * (2 * kBytesPerCell + kBytesPerParentCell / 2);
-}
-
-void require_disk_space(const std::filesystem::path& project, std::uint64_t bytes) {
-  const std::uint64_t free = raster::free_disk_space(project);
-  if (free < bytes)
-    throw failure("The disk that holds " + project.string() + " has " + std::to_string(free >> 20) +
-                  " MiB free, and this run may need " + std::to_string(bytes >> 20) +
-                  " MiB: free some, or choose another place with -o, a larger --cell or a smaller --aoi.");
 }
 
 void set_footprints(std::vector<index::ImageRecord>& records, const SearchRange& search) {
@@ -53,6 +43,67 @@ class GpuTroubleAsWarnings {
   ~GpuTroubleAsWarnings() { sweep::listen_to_gpu_trouble(nullptr); }
 };
 
+// Nobody else writes while a run does; a dry run disturbs nobody.
+std::optional<ProjectLock> lock_for(const RunRequest& request) {
+  if (request.dry_run) return std::nullopt;
+  return ProjectLock(request.project);
+}
+
+// The catalogue for looking only; nothing, with a warning, if it is damaged.
+std::optional<index::Catalogue> look_at_catalogue(const ProjectPaths& paths, Progress& progress) {
+  std::error_code error;
+  if (!std::filesystem::exists(paths.catalogue(), error)) return std::nullopt;
+  try {
+    return index::Catalogue::open_existing(paths.catalogue());
+  } catch (const Error& damage) {
+    progress.warn(std::string(damage.what()) + "; a run without --dry-run does so.");
+    return std::nullopt;
+  }
+}
+
+std::set<std::string> removals_of(const RunRequest& request, const ProjectPaths& paths, bool exists,
+                                  const std::vector<index::ImageRecord>& photographs) {
+  const std::set<std::string> before = exists ? read_removals(paths) : std::set<std::string>{};
+  return changed_removals(before, photographs, request.remove, request.restore);
+}
+
+// What earlier runs left.
+struct EarlierRuns {
+  std::optional<OpenCatalogue> open;          // of a run
+  std::optional<index::Catalogue> looked_at;  // of a dry run
+  std::vector<index::ImageRecord> images;     // none when everything is to be read
+};
+
+EarlierRuns look_at_earlier_runs(const RunRequest& request, const ProjectChoice& choice, const ProjectPaths& paths,
+                                 Progress& progress) {
+  EarlierRuns earlier;
+  if (!choice.existing) return earlier;
+  if (request.dry_run) {
+    earlier.looked_at = look_at_catalogue(paths, progress);
+    if (earlier.looked_at) earlier.images = earlier.looked_at->images();
+  } else {
+    raster::remove_temporary_files(paths.folder);
+    earlier.open = open_catalogue(paths, choice.existing->crs_wkt, progress);
+    earlier.images = earlier.open->images;
+  }
+  if (request.verify) earlier.images.clear();
+  return earlier;
+}
+
+// What a run would do, without a trace.
+void plan_only(const RunRequest& request, const ProjectPaths& paths, const Coverage& coverage,
+               std::optional<index::Catalogue>& catalogue, RunSummary& summary, Executor& executor) {
+  const tiles::TileStore store = open_store(paths, summary.settings);
+  const TileChecker checker(summary.settings, store, request.verify);
+  std::optional<MapRecords> records;
+  if (catalogue) records.emplace(*catalogue);
+  const WorkList work = find_work(coverage, checker, records ? &*records : nullptr, store, request.area, executor);
+  summary.tiles_stale = static_cast<int>(work.stale.size());
+  summary.tiles_kept = work.fresh;
+  summary.tiles_removed = static_cast<int>(work.gone.size());
+  summary.disk_bytes_needed = disk_bytes(work.stale.size(), summary.settings);
+}
+
 }  // namespace
 
 RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<bool>& stop) {
@@ -61,12 +112,16 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
   RunSummary summary;
   const GpuTroubleAsWarnings warnings(progress);
 
+  const std::optional<ProjectLock> lock = lock_for(request);
   const ProjectChoice choice = choose_project(request, paths);
-  PhotographSet photographs =
-      collect_photographs(request.images, request.poses, request.origin, choice.configuration.photographs, executor);
+  EarlierRuns earlier = look_at_earlier_runs(request, choice, paths, progress);
+  PhotographSet photographs = collect_photographs(request.images, request.poses, request.origin,
+                                                  choice.configuration.photographs, executor, earlier.images);
   for (const std::string& note : photographs.notes) progress.note(note);
   for (const std::string& warning : photographs.warnings) progress.warn(warning);
   report_refusals(photographs.records, progress);
+  const std::set<std::string> removed = removals_of(request, paths, choice.existing.has_value(), photographs.records);
+  mark_removed(photographs.records, removed);
 
   summary.memory = plan_memory(request.memory_bytes.value_or(default_memory_limit()), photographs.records,
                                choice.configuration, request.threads);
@@ -80,15 +135,32 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
   use_recorded_engine(summary.settings);
   set_footprints(photographs.records, summary.settings.search);
 
-  const std::vector<tiles::TileKey> planned = Coverage(photographs.records, summary.settings).tiles(request.area);
-  summary.tiles_planned = static_cast<int>(planned.size());
-  summary.disk_bytes_needed = disk_bytes(planned.size(), summary.settings);
+  {
+    const Coverage coverage(photographs.records, summary.settings);
+    summary.tiles_planned = static_cast<int>(coverage.tiles(request.area).size());
+    if (request.dry_run) plan_only(request, paths, coverage, earlier.looked_at, summary, executor);
+  }
   if (!request.dry_run) {
-    require_disk_space(request.project, summary.disk_bytes_needed);
-    if (!choice.existing) make_project(paths, summary.settings, request.fresh);
-    index::Catalogue catalogue(paths.catalogue(), summary.settings.crs_wkt);
+    if (!choice.existing) {
+      require_disk_space(request.project, disk_bytes(summary.tiles_planned, summary.settings));
+      make_project(paths, summary.settings, request.fresh);
+      earlier.open = open_catalogue(paths, summary.settings.crs_wkt, progress);
+    }
+    if (!request.remove.empty() || !request.restore.empty()) write_removals(paths, removed);
     const tiles::TileStore store = open_store(paths, summary.settings);
-    MapUpdate update{store, catalogue, summary.settings, request.area, photographs.records, photos};
+    const TileChecker checker(summary.settings, store, request.verify);
+    LiveMosaics mosaics(paths, store);
+    MapUpdate update{paths,
+                     store,
+                     *earlier.open->file,
+                     *earlier.open->tiles,
+                     summary.settings,
+                     checker,
+                     mosaics,
+                     request,
+                     earlier.open->images,
+                     photographs.records,
+                     photos};
     update_map(update, summary, executor, progress, stop);
   }
   summary.images = std::move(photographs.records);

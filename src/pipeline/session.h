@@ -31,10 +31,12 @@ struct RunRequest {
   std::optional<sweep::Backend> backend;
   std::optional<std::size_t> memory_bytes;
   int threads = 1;
-  bool no_fill = false;          // as [sweep] fill = false
-  bool planar_fallback = false;  // as [sweep] planar_fallback = true
-  bool fresh = false;            // throw away what the project holds
-  bool dry_run = false;          // find out everything, write nothing
+  bool no_fill = false;                      // as [sweep] fill = false
+  bool planar_fallback = false;              // as [sweep] planar_fallback = true
+  bool fresh = false;                        // throw away what the project holds
+  bool dry_run = false;                      // find out everything, write nothing
+  bool verify = false;                       // read every photograph and every tile, not only sizes and times
+  std::vector<std::string> remove, restore;  // patterns of photographs to take out of the project, or back
 };
 
 struct RunSummary {
@@ -44,15 +46,18 @@ struct RunSummary {
   std::uint64_t disk_bytes_needed = 0;  // at most
   int tiles_planned = 0;
   int tiles_computed = 0;
-  int tiles_kept = 0;  // already there with the same inputs
+  int tiles_kept = 0;     // already there with the same inputs
+  int tiles_stale = 0;    // of a dry run: those that a run would compute
+  int tiles_removed = 0;  // touched by too few photographs now
   // Cells of the tiles computed: measured, and filled from their surroundings.
   std::uint64_t cells_measured = 0, cells_filled = 0;
   int tiles_empty = 0;  // looked at, and nothing could be known
   int parents_written = 0;
-  double samples = 0;  // luminance samples of the fine sweep
+  int quadrants_made = 0;  // of the parents written
+  std::string map_digest;  // of all level-0 tiles: what products are made from
+  double samples = 0;      // luminance samples of the fine sweep
   int photographs_decoded = 0;
   bool interrupted = false;
-  bool changed() const { return tiles_computed > 0 || parents_written > 0; }
 };
 
 // Throws Error. When `stop` becomes true, tiles in work are finished, nothing new is begun, parents are brought up to

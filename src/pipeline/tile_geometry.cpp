@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sweep/luminance_gains.h"
+
 namespace skysweep::pipeline {
 
 using sweep::HeightRange;
@@ -41,6 +43,8 @@ HeightRange TileGeometry::guessed_heights() const {
   return {ground, ground};
 }
 
+bool TileGeometry::guess_is_compared_on() const { return sweep::compares_luminance(settings_.configuration.sweep); }
+
 HeightRange TileGeometry::searched_heights() const {
   if (settings_.search.heights) return *settings_.search.heights;
   HeightRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -73,6 +77,12 @@ std::vector<sweep::View> TileGeometry::views(const index::ViewSelection& selecti
     views.push_back({images[k].get(), camera, base_level(camera, heights)});
   }
   return views;
+}
+
+std::vector<int> TileGeometry::base_levels(const index::ViewSelection& selection, const HeightRange& heights) const {
+  std::vector<int> levels;
+  for (const int i : selection.chosen) levels.push_back(base_level(candidates_[i].camera, heights));
+  return levels;
 }
 
 // The mipmap level whose pixels are between 0.35 and 0.7 of a cell: never coarser than a cell, never so fine that most

@@ -25,12 +25,16 @@ class TileGeometry {
   // The ground as the project's typical depth puts it below these cameras; and everything a surface may be at.
   sweep::HeightRange guessed_heights() const;
   sweep::HeightRange searched_heights() const;
+  // Whether anything but the choice of views depends on the guess: exposures are compared on it.
+  bool guess_is_compared_on() const;
 
   index::ViewSelection select(const sweep::HeightRange& heights) const;
   std::vector<std::string> names(const index::ViewSelection& selection) const;
   std::vector<sweep::View> views(const index::ViewSelection& selection,
                                  const std::vector<std::shared_ptr<const sweep::ImagePyramid>>& images,
                                  const sweep::HeightRange& heights) const;
+  // The mipmap levels that these views are sampled at.
+  std::vector<int> base_levels(const index::ViewSelection& selection, const sweep::HeightRange& heights) const;
 
  private:
   int base_level(const camera::Camera& camera, const sweep::HeightRange& heights) const;

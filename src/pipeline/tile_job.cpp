@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "pipeline/tile_digest.h"
 #include "pipeline/tile_geometry.h"
-#include "raster/digest.h"
 #include "sweep/luminance_gains.h"
 
 namespace skysweep::pipeline {
@@ -72,10 +72,11 @@ PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const ImageRecor
                           const ProjectSettings& settings, PhotoCache& photos, Executor& executor) {
   const TileGeometry geometry(key, candidates, settings);
   PreparedTile prepared;
+  TileInputs inputs;
   prepared.problem = geometry.empty_problem();
 
   // The ground is first guessed below the cameras, then found by a coarse sweep with the views that serve the guess.
-  prepared.selection = geometry.select(geometry.guessed_heights());
+  prepared.selection = inputs.guess = geometry.select(geometry.guessed_heights());
   prepared.images = load_photographs(geometry.names(prepared.selection), photos, executor);
   prepared.problem.views = geometry.views(prepared.selection, prepared.images, geometry.guessed_heights());
   if (prepared.problem.views.size() >= 2) {
@@ -93,6 +94,9 @@ PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const ImageRecor
     sweep::equalize_luminance(prepared.coarse_surface, executor, prepared.problem);
   }
   prepared.view_names = geometry.names(prepared.selection);
+  inputs.heights = prepared.heights;
+  inputs.chosen = prepared.selection;
+  prepared.input_digest = inputs.digest(key, geometry, candidates, settings_digest(settings));
   return prepared;
 }
 
@@ -102,8 +106,10 @@ TileOutcome compute_tile(tiles::TileKey key, const std::vector<const ImageRecord
   const sweep::SweepResult result = sweep::plane_sweep(prepared.problem, settings.backend, executor);
   TileOutcome outcome;
   outcome.tile = tile_from(result, settings.configuration.tiles);
+  outcome.input_digest = prepared.input_digest;
   outcome.views = prepared.view_names;
   outcome.heights = prepared.heights;
+  if (outcome.heights) outcome.tile.searched = {outcome.heights->z_low, outcome.heights->z_high};
   outcome.valid_share = share_with_height(outcome.tile.dem);
   outcome.cells_measured = count_of(outcome.tile.mask, tiles::CellSource::measured);
   outcome.cells_filled = count_of(outcome.tile.mask, tiles::CellSource::filled);
@@ -113,26 +119,6 @@ TileOutcome compute_tile(tiles::TileKey key, const std::vector<const ImageRecord
 
 bool TileOutcome::empty() const {
   return valid_share == 0 && std::all_of(tile.color.begin(), tile.color.end(), [](Rgba8 c) { return c.a == 0; });
-}
-
-std::string tile_digest(tiles::TileKey key, const std::vector<const ImageRecord*>& candidates,
-                        const ProjectSettings& settings) {
-  raster::Digest digest;
-  digest.add_field(key.name());
-  digest.add_field(settings_text(settings));
-  const auto add_numbers = [&digest](std::initializer_list<double> values) {
-    for (const double v : values) digest.add_bytes({reinterpret_cast<const char*>(&v), sizeof v});
-  };
-  for (const ImageRecord* image : candidates) {
-    const camera::CameraModel& m = image->model;
-    const Vec3d c = image->pose.center;
-    digest.add_field(image->name);
-    digest.add_field(image->content_digest);
-    add_numbers({m.fx_px, m.fy_px, m.cx_px, m.cy_px, m.distortion.k1, m.distortion.k2, m.distortion.p1, m.distortion.p2,
-                 m.distortion.k3, c.x, c.y, c.z});
-    for (const double r : image->pose.cam_from_world.m) add_numbers({r});
-  }
-  return digest.hex();
 }
 
 }  // namespace skysweep::pipeline

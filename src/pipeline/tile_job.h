@@ -30,6 +30,7 @@ class PhotographFailed : public std::exception {
 
 // What a tile is asked to be swept with: the problem, and the photographs it points to.
 struct PreparedTile {
+  std::string input_digest;  // of everything the result depends on (pipeline/tile_digest.h)
   index::ViewSelection selection;
   std::vector<std::string> view_names;  // of problem.views
   std::vector<std::shared_ptr<const sweep::ImagePyramid>> images;
@@ -44,6 +45,7 @@ PreparedTile prepare_tile(tiles::TileKey key, const std::vector<const index::Ima
 
 struct TileOutcome {
   tiles::Tile tile;
+  std::string input_digest;
   std::vector<std::string> views;
   std::optional<sweep::HeightRange> heights;  // found by the coarse sweep
   double valid_share = 0;                     // cells with a height
@@ -54,9 +56,5 @@ struct TileOutcome {
 
 TileOutcome compute_tile(tiles::TileKey key, const std::vector<const index::ImageRecord*>& candidates,
                          const ProjectSettings& settings, PhotoCache& photos, Executor& executor);
-
-// Digest of everything the tile depends on.
-std::string tile_digest(tiles::TileKey key, const std::vector<const index::ImageRecord*>& candidates,
-                        const ProjectSettings& settings);
 
 }  // namespace skysweep::pipeline

@@ -9,49 +9,40 @@
 
 #include "core/error.h"
 #include "pipeline/coverage.h"
+#include "pipeline/disk_need.h"
+#include "pipeline/map_parents.h"
+#include "pipeline/photographs.h"
+#include "pipeline/stale_tiles.h"
+#include "pipeline/tile_digest.h"
 #include "pipeline/tile_job.h"
 #include "pipeline/unknown_tiles.h"
-#include "tiles/pyramid.h"
+#include "raster/file_stamp.h"
 
 namespace skysweep::pipeline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using FailedPhotographs = std::map<std::string, std::string>;  // name and reason
 
-struct StaleTile {
-  tiles::TileKey key;
-  std::vector<const index::ImageRecord*> candidates;
-  std::string digest;
-};
-
-// Digests of the tiles as the catalogue knows them: a tile in which nothing could be known has no files.
-std::map<std::string, std::string> recorded_digests(const index::Catalogue& catalogue) {
-  std::map<std::string, std::string> digests;
-  for (const index::TileRecord& tile : catalogue.tiles()) digests[tile.name] = tile.input_digest;
-  return digests;
-}
-
-bool is_up_to_date(const MapUpdate& update, const StaleTile& tile, const std::map<std::string, std::string>& recorded) {
-  const auto found = recorded.find(tile.key.name());
-  if (found == recorded.end() || found->second != tile.digest) return false;
-  const std::optional<std::string> stored = update.store.input_digest(tile.key);
-  return !stored || *stored == tile.digest;
-}
-
-index::TileRecord record_of(const StaleTile& tile, const TileOutcome& outcome, const tiles::Lattice& lattice,
+index::TileRecord record_of(const StaleTile& tile, const TileOutcome& outcome, const MapUpdate& update,
                             double seconds) {
   index::TileRecord record;
   record.name = tile.key.name();
   record.level = tile.key.level;
-  record.extent = lattice.extent(tile.key);
-  record.input_digest = tile.digest;
+  record.extent = update.settings.lattice.extent(tile.key);
+  record.input_digest = outcome.input_digest;
+  record.candidates_digest = tile.candidates_digest;
   record.views = outcome.views;
+  for (const std::string& view : outcome.views)
+    record.view_digests.push_back(view_digest(**std::find_if(tile.candidates.begin(), tile.candidates.end(),
+                                                             [&](const auto* image) { return image->name == view; })));
   record.valid_share = outcome.valid_share;
   if (outcome.heights) {
     record.z_low = outcome.heights->z_low;
     record.z_high = outcome.heights->z_high;
   }
   record.seconds = seconds;
+  note_files(update.store, tile.key, record);
   return record;
 }
 
@@ -61,7 +52,7 @@ class Pass {
   Pass(MapUpdate& update, RunSummary& summary, Progress& progress, const std::atomic<bool>& stop)
       : update_(update), summary_(summary), progress_(progress), stop_(stop) {}
 
-  std::map<std::string, std::string> run(const std::vector<StaleTile>& stale, TbbExecutor& executor) {
+  FailedPhotographs run(const std::vector<StaleTile>& stale, TbbExecutor& executor) {
     progress_.begin("tiles", static_cast<int>(stale.size()));
     executor.for_each_in_order(static_cast<int>(stale.size()), summary_.memory.tiles_in_flight, [&](int i) {
       if (stop_) return;
@@ -71,7 +62,6 @@ class Pass {
     return std::move(failed_photographs_);
   }
 
-  const std::vector<tiles::TileKey>& changed() const { return changed_; }
   const UnknownTiles& unknown() const { return unknown_; }
 
  private:
@@ -80,13 +70,14 @@ class Pass {
     try {
       const TileOutcome outcome = compute_tile(tile.key, tile.candidates, update_.settings, update_.photos, executor);
       if (outcome.empty())
-        update_.store.remove(tile.key);
+        remove(tile.key);
       else
-        update_.store.write(tile.key, outcome.tile, tile.digest);
+        update_.store.write(tile.key, outcome.tile, outcome.input_digest);
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      const index::TileRecord record = record_of(tile, outcome, update_, seconds);
       const std::lock_guard lock(mutex_);
-      update_.catalogue.put_tiles({record_of(tile, outcome, update_.settings.lattice, seconds)});
-      changed_.push_back(tile.key);
+      update_.records.put({record});
+      update_.mosaics.write_now_and_then(update_.records);
       ++summary_.tiles_computed;
       summary_.tiles_empty += outcome.empty();
       summary_.cells_measured += outcome.cells_measured;
@@ -94,9 +85,17 @@ class Pass {
       summary_.samples += outcome.samples;
       unknown_.add(outcome);
     } catch (const PhotographFailed& failed) {
+      if (const auto path = update_.request.images / failed.name(); !raster::file_stamp(path))
+        throw photograph_vanished(path);
       const std::lock_guard lock(mutex_);
       failed_photographs_[failed.name()] = failed.what();
     }
+  }
+
+  void remove(tiles::TileKey key) {
+    const std::lock_guard lock(mutex_);
+    update_.mosaics.write_without(update_.records, {key});
+    update_.store.remove(key);
   }
 
   MapUpdate& update_;
@@ -104,52 +103,11 @@ class Pass {
   Progress& progress_;
   const std::atomic<bool>& stop_;
   std::mutex mutex_;
-  std::vector<tiles::TileKey> changed_;
-  std::map<std::string, std::string> failed_photographs_;
+  FailedPhotographs failed_photographs_;
   UnknownTiles unknown_;
 };
 
-std::vector<StaleTile> find_stale(const MapUpdate& update, const Coverage& coverage, int& kept) {
-  const std::map<std::string, std::string> recorded = recorded_digests(update.catalogue);
-  std::vector<StaleTile> stale;
-  kept = 0;
-  for (const tiles::TileKey key : coverage.tiles(update.area)) {
-    StaleTile tile{key, coverage.candidates(key), {}};
-    tile.digest = tile_digest(key, tile.candidates, update.settings);
-    if (is_up_to_date(update, tile, recorded))
-      ++kept;
-    else
-      stale.push_back(std::move(tile));
-  }
-  return stale;
-}
-
-// Photographs and tiles of an earlier run that this one's photographs do not account for.
-std::vector<tiles::TileKey> drop_what_lost_its_photographs(MapUpdate& update, const Coverage& coverage) {
-  std::set<std::string> images;
-  for (const index::ImageRecord& image : update.images) images.insert(image.name);
-  std::vector<std::string> gone_images;
-  for (const index::ImageRecord& image : update.catalogue.images())
-    if (!images.contains(image.name)) gone_images.push_back(image.name);
-  update.catalogue.remove_images(gone_images);
-
-  const std::vector<tiles::TileKey> possible = coverage.tiles(std::nullopt);
-  const std::set<tiles::TileKey> keep(possible.begin(), possible.end());
-  std::vector<tiles::TileKey> gone;
-  std::vector<std::string> gone_names;
-  for (const index::TileRecord& tile : update.catalogue.tiles()) {
-    const std::optional<tiles::TileKey> key = tiles::TileKey::parse(tile.name);
-    if (key && keep.contains(*key)) continue;
-    gone_names.push_back(tile.name);
-    if (key) gone.push_back(*key);
-  }
-  for (const tiles::TileKey key : gone) update.store.remove(key);
-  update.catalogue.remove_tiles(gone_names);
-  return gone;
-}
-
-void refuse(std::vector<index::ImageRecord>& images, const std::map<std::string, std::string>& failed,
-            Progress& progress) {
+void refuse(std::vector<index::ImageRecord>& images, const FailedPhotographs& failed, Progress& progress) {
   for (index::ImageRecord& image : images) {
     const auto found = failed.find(image.name);
     if (found == failed.end()) continue;
@@ -159,19 +117,12 @@ void refuse(std::vector<index::ImageRecord>& images, const std::map<std::string,
   }
 }
 
-// The border of every map has such tiles; a map of nothing else is worth a warning.
-void say_what_is_unknown(const UnknownTiles& unknown, Progress& progress) {
-  const std::string sentence = unknown.sentence();
-  if (sentence.empty()) return;
-  unknown.count() == unknown.looked_at ? progress.warn(sentence) : progress.note(sentence);
-}
-
 // A photograph that could not be decoded last time is tried first, not when half the map has been computed with it.
 void retry_refused_ones(MapUpdate& update, Progress& progress) {
   std::map<std::string, std::string> refused_content;
-  for (const index::ImageRecord& image : update.catalogue.images())
+  for (const index::ImageRecord& image : update.known_images)
     if (image.status == index::ImageStatus::refused) refused_content[image.name] = image.content_digest;
-  std::map<std::string, std::string> failed;
+  FailedPhotographs failed;
   for (const index::ImageRecord& image : update.images) {
     const auto found = refused_content.find(image.name);
     if (image.status != index::ImageStatus::used || found == refused_content.end()) continue;
@@ -179,10 +130,94 @@ void retry_refused_ones(MapUpdate& update, Progress& progress) {
     try {
       update.photos.get(image.name);
     } catch (const Error& error) {
+      if (const auto path = update.request.images / image.name; !raster::file_stamp(path))
+        throw photograph_vanished(path);
       failed[image.name] = error.what();
     }
   }
   refuse(update.images, failed, progress);
+}
+
+// What the catalogue does not hold yet goes in, what this run no longer finds goes out.
+void record_images(MapUpdate& update, Progress& progress) {
+  std::map<std::string, const index::ImageRecord*> known;
+  for (const index::ImageRecord& image : update.known_images) known[image.name] = &image;
+  std::vector<index::ImageRecord> changed;
+  for (const index::ImageRecord& image : update.images) {
+    const auto found = known.find(image.name);
+    if (found == known.end() || !(*found->second == image)) changed.push_back(image);
+    if (found != known.end()) known.erase(found);
+  }
+  std::vector<std::string> gone;
+  for (const auto& [name, image] : known) gone.push_back(name);
+  if (!gone.empty())
+    progress.warn(std::to_string(gone.size()) + " photographs of earlier runs are not in " +
+                  update.request.images.string() + " any more (" + gone.front() +
+                  (gone.size() > 1 ? ", ...): " : "): ") + "the map is made without them.");
+  if (!changed.empty()) update.catalogue.put_images(changed);
+  if (!gone.empty()) update.catalogue.remove_images(gone);
+  update.known_images = update.images;
+}
+
+void remove_tiles(MapUpdate& update, const std::vector<tiles::TileKey>& gone) {
+  if (gone.empty()) return;
+  update.mosaics.write_without(update.records, gone);
+  for (const tiles::TileKey key : gone) update.store.remove(key);
+  update.records.remove(gone);
+}
+
+void say_why(const std::vector<StaleTile>& stale, Progress& progress) {
+  for (const StaleTile& tile : stale) {
+    const std::string sentence = "The tile " + tile.key.name() + " is stale: " + tile.why + ".";
+    if (tile.damaged)
+      progress.warn(sentence);
+    else if (tile.known)
+      progress.note(sentence);
+  }
+}
+
+// The border of every map has such tiles; a map of nothing else is worth a warning.
+void say_what_is_unknown(const UnknownTiles& unknown, bool whole_map, Progress& progress) {
+  const std::string sentence = unknown.sentence();
+  if (sentence.empty()) return;
+  whole_map&& unknown.count() == unknown.looked_at ? progress.warn(sentence) : progress.note(sentence);
+}
+
+// Tiles that the failed photographs were to serve; from now on they have to do without.
+std::vector<tiles::TileKey> take_out(const FailedPhotographs& failed, const std::vector<index::ImageRecord>& images,
+                                     Coverage& coverage) {
+  std::vector<tiles::TileKey> keys;
+  for (const index::ImageRecord& image : images) {
+    if (!failed.contains(image.name)) continue;
+    const std::vector<tiles::TileKey> touched = coverage.touched(image);
+    keys.insert(keys.end(), touched.begin(), touched.end());
+    coverage.remove(image.name);
+  }
+  return keys;
+}
+
+// Level 0: until no photograph fails any more.
+void update_finest(MapUpdate& update, RunSummary& summary, TbbExecutor& executor, Progress& progress,
+                   const std::atomic<bool>& stop) {
+  record_images(update, progress);
+  Coverage coverage(update.images, update.settings);
+  WorkList work = find_work(coverage, update.checker, &update.records, update.store, update.request.area, executor);
+  const int kept = work.fresh;
+  if (summary.tiles_kept < 0) summary.tiles_kept = kept;
+  for (;;) {
+    require_disk_space(update.paths.folder, disk_bytes(work.stale.size(), update.settings));
+    update.records.put(work.told);
+    summary.tiles_removed += static_cast<int>(work.gone.size());
+    remove_tiles(update, work.gone);
+    say_why(work.stale, progress);
+    Pass pass(update, summary, progress, stop);
+    const FailedPhotographs failed = pass.run(work.stale, executor);
+    if (failed.empty() || stop) return say_what_is_unknown(pass.unknown(), kept == 0, progress);
+    const std::vector<tiles::TileKey> keys = take_out(failed, update.images, coverage);
+    refuse(update.images, failed, progress);
+    record_images(update, progress);
+    work = find_work_among(keys, coverage, update.checker, update.records, update.store, update.request.area, executor);
+  }
 }
 
 }  // namespace
@@ -190,29 +225,18 @@ void retry_refused_ones(MapUpdate& update, Progress& progress) {
 void update_map(MapUpdate& update, RunSummary& summary, TbbExecutor& executor, Progress& progress,
                 const std::atomic<bool>& stop) {
   retry_refused_ones(update, progress);
-  std::vector<tiles::TileKey> changed = tiles::find_outdated(update.store);
-  int kept_before = -1;
+  summary.tiles_kept = -1;
   for (;;) {
-    update.catalogue.put_images(update.images);
-    const Coverage coverage(update.images, update.settings);
-    const std::vector<tiles::TileKey> gone = drop_what_lost_its_photographs(update, coverage);
-    changed.insert(changed.end(), gone.begin(), gone.end());
-    int kept = 0;
-    const std::vector<StaleTile> stale = find_stale(update, coverage, kept);
-    if (kept_before < 0) kept_before = kept;
-    Pass pass(update, summary, progress, stop);
-    const std::map<std::string, std::string> failed = pass.run(stale, executor);
-    changed.insert(changed.end(), pass.changed().begin(), pass.changed().end());
-    if (failed.empty() || stop) {
-      say_what_is_unknown(pass.unknown(), progress);
-      break;
-    }
-    refuse(update.images, failed, progress);
+    update_finest(update, summary, executor, progress, stop);
+    progress.begin("parents", 1);
+    const ParentsOutcome parents = update_map_parents(update.records, update.store, update.checker, executor, progress);
+    progress.advance();
+    summary.parents_written += parents.written;
+    summary.quadrants_made += parents.quadrants;
+    if (parents.unreadable.empty() || stop) break;
   }
-  summary.tiles_kept = kept_before;
-  progress.begin("parents", 1);
-  summary.parents_written = static_cast<int>(tiles::rebuild_parents(update.store, changed, executor).size());
-  progress.advance();
+  update.mosaics.write(update.records);
+  summary.map_digest = update.records.digest();
   summary.interrupted = stop;
 }
 

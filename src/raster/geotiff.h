@@ -33,6 +33,7 @@ struct Labels {
       vertical_reference;    // e.g. "EGM96 height" or "unknown: as in the photographs' poses"; empty if no heights
   std::string software;      // "skysweep 0.1.0"
   std::string input_digest;  // digest of everything the raster was computed from
+  std::string searched_heights = {};  // "LOW HIGH", metres: between which a surface was looked for; empty if unknown
 };
 
 template <typename T>

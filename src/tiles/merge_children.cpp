@@ -72,23 +72,30 @@ void merge_layer(const Array2d<T>& child, Array2d<T>& parent, int column, int ro
 
 }  // namespace
 
-Tile merge_children(const std::array<const Tile*, 4>& children, int tile_cells) {
+Tile empty_parent(int tile_cells) {
   SKY_CHECK_EQ(tile_cells % 2, 0);
-  Tile parent{Array2d<float>(tile_cells, tile_cells, kNoData), Array2d<float>(tile_cells, tile_cells, kNoData),
-              Array2d<Rgba8>(tile_cells, tile_cells), Array2d<float>(tile_cells, tile_cells, kNoData),
-              Array2d<std::uint8_t>(tile_cells, tile_cells)};
-  const int half = tile_cells / 2;
-  for (int i = 0; i < 4; ++i) {
-    if (!children[i]) continue;
-    const Tile& child = *children[i];
-    const int column = i % 2 ? half : 0;
-    const int row = i < 2 ? half : 0;  // row 0 is north, the southern children come first
-    merge_layer(child.dem, parent.dem, column, row, [](const Quad<float>& q) { return mean_of(q); });
-    merge_layer(child.dem_max.empty() ? child.dem : child.dem_max, parent.dem_max, column, row, highest_of);
-    merge_layer(child.color, parent.color, column, row, [](const Quad<Rgba8>& q) { return mean_of(q); });
-    merge_layer(child.confidence, parent.confidence, column, row, root_mean_square_of);
-    merge_layer(child.mask, parent.mask, column, row, best_source_of);
-  }
+  return {Array2d<float>(tile_cells, tile_cells, kNoData), Array2d<float>(tile_cells, tile_cells, kNoData),
+          Array2d<Rgba8>(tile_cells, tile_cells), Array2d<float>(tile_cells, tile_cells, kNoData),
+          Array2d<std::uint8_t>(tile_cells, tile_cells)};
+}
+
+void put_quadrant(Tile& parent, int quadrant, const Tile* child) {
+  const int half = parent.dem.width() / 2;
+  const int column = quadrant % 2 ? half : 0;
+  const int row = quadrant < 2 ? half : 0;  // row 0 is north, the southern children come first
+  const Tile nothing = child ? Tile{} : empty_parent(parent.dem.width());
+  const Tile& from = child ? *child : nothing;
+  merge_layer(from.dem, parent.dem, column, row, [](const Quad<float>& q) { return mean_of(q); });
+  merge_layer(from.dem_max.empty() ? from.dem : from.dem_max, parent.dem_max, column, row, highest_of);
+  merge_layer(from.color, parent.color, column, row, [](const Quad<Rgba8>& q) { return mean_of(q); });
+  merge_layer(from.confidence, parent.confidence, column, row, root_mean_square_of);
+  merge_layer(from.mask, parent.mask, column, row, best_source_of);
+}
+
+Tile merge_children(const std::array<const Tile*, 4>& children, int tile_cells) {
+  Tile parent = empty_parent(tile_cells);
+  for (int i = 0; i < 4; ++i)
+    if (children[i]) put_quadrant(parent, i, children[i]);
   return parent;
 }
 

@@ -2,10 +2,11 @@
 #include "tiles/pyramid.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <utility>
 
+#include "core/check.h"
+#include "core/error.h"
 #include "raster/digest.h"
 
 namespace skysweep::tiles {
@@ -14,122 +15,206 @@ namespace {
 
 constexpr int kHighestPossibleLevel = 30;  // indices have 29 bits
 using Children = std::array<TileKey, 4>;   // south-west, south-east, north-west, north-east
+using Digests = std::map<TileKey, std::string>;
 
-Children children_from(TileKey south_west) {
+Children children_of(TileKey key, const LevelPlan& plan) {
+  const TileKey south_west = key.is_top() ? plan.top_south_west : key.child(0, 0);
   const auto at = [&](int dx, int dy) { return TileKey{south_west.level, south_west.x + dx, south_west.y + dy}; };
   return {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
 }
 
-Children children_of(TileKey key, const LevelPlan& plan) {
-  return children_from(key.is_top() ? plan.top_south_west : key.child(0, 0));
+ParentState state_of(const Children& keys, const Digests& level) {
+  ParentState state;
+  raster::Digest digest;
+  digest.add_field(keys[0].name());
+  for (int i = 0; i < 4; ++i) {
+    const auto found = level.find(keys[i]);
+    if (found != level.end()) state.children[i] = {keys[i].name(), found->second};
+    digest.add_field(state.children[i].digest);
+  }
+  state.digest = digest.hex();
+  return state;
 }
 
-LevelPlan plan_for(const std::vector<TileKey>& tiles) {
-  const auto [west, east] =
-      std::minmax_element(tiles.begin(), tiles.end(), [](TileKey a, TileKey b) { return a.x < b.x; });
-  const auto [south, north] =
-      std::minmax_element(tiles.begin(), tiles.end(), [](TileKey a, TileKey b) { return a.y < b.y; });
-  return plan_levels(west->x, south->y, east->x, north->y);
-}
+// One parent from what is on disk. Nothing if a tile that it needs cannot be read; that one is named.
+class ParentMaker {
+ public:
+  ParentMaker(const TileStore& store, const LevelPlan& plan) : store_(store), plan_(plan) {}
 
-std::set<TileKey> parents_of(const std::vector<TileKey>& tiles) {
+  // `old`: what the parent on disk was made from; null: none is there. Returns the number of quadrants made.
+  std::optional<int> make(TileKey key, const ParentState& wanted, const ParentState* old, TileKey& unreadable) const {
+    std::optional<Tile> parent = old ? reusable(key, wanted, *old) : std::nullopt;
+    const bool reuse = parent.has_value();
+    if (!reuse) parent = empty_parent(store_.lattice().tile_cells);
+    const Children keys = children_of(key, plan_);
+    int made = 0;
+    for (int i = 0; i < 4; ++i) {
+      if (reuse && old->children[i] == wanted.children[i]) continue;
+      std::optional<Tile> child;
+      if (!wanted.children[i].name.empty()) {
+        child = read(keys[i]);
+        if (!child) {
+          unreadable = keys[i];
+          return std::nullopt;
+        }
+      }
+      if (!reuse && !child) continue;
+      put_quadrant(*parent, i, child ? &*child : nullptr);
+      ++made;
+    }
+    parent->searched.reset();
+    store_.write(key, *parent, wanted.digest, &plan_);
+    return made;
+  }
+
+ private:
+  std::optional<Tile> read(TileKey key) const {
+    try {
+      return store_.read(key);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  }
+
+  // The parent on disk, if any quadrant of it can stay.
+  std::optional<Tile> reusable(TileKey key, const ParentState& wanted, const ParentState& old) const {
+    for (int i = 0; i < 4; ++i)
+      if (!old.children[i].name.empty() && old.children[i] == wanted.children[i]) return read(key);
+    return std::nullopt;
+  }
+
+  const TileStore& store_;
+  const LevelPlan& plan_;
+};
+
+// The parents of one level, brought up to date.
+class LevelUpdate {
+ public:
+  LevelUpdate(const TileStore& store, const LevelPlan& plan, const PyramidState& state, PyramidChanges& changes)
+      : store_(store), plan_(plan), state_(state), changes_(changes) {}
+
+  // Digests of the level's tiles.
+  Digests run(const std::set<TileKey>& keys, const Digests& below, Executor& executor,
+              const PyramidListener& listener) {
+    Digests level;
+    std::vector<TileKey> stale;
+    std::vector<ParentState> wanted;
+    for (const TileKey key : keys) {
+      ParentState state = state_of(children_of(key, plan_), below);
+      level[key] = state.digest;
+      if (const ParentState* old = recorded(key); old && old->digest == state.digest) continue;
+      stale.push_back(key);
+      wanted.push_back(std::move(state));
+    }
+    make(stale, wanted, executor, listener);
+    return level;
+  }
+
+ private:
+  const ParentState* recorded(TileKey key) const {
+    const auto found = state_.parents.find(key);
+    return found == state_.parents.end() ? nullptr : &found->second;
+  }
+
+  void make(const std::vector<TileKey>& stale, const std::vector<ParentState>& wanted, Executor& executor,
+            const PyramidListener& listener) {
+    const ParentMaker maker(store_, plan_);
+    std::vector<std::optional<int>> quadrants(stale.size());
+    std::vector<TileKey> unreadable(stale.size());
+    executor.parallel_for(static_cast<int>(stale.size()), [&](int i) {
+      quadrants[i] = maker.make(stale[i], wanted[i], recorded(stale[i]), unreadable[i]);
+    });
+    std::map<TileKey, ParentState> written;
+    for (std::size_t i = 0; i < stale.size(); ++i) {
+      if (!quadrants[i]) {
+        changes_.unreadable.push_back(unreadable[i]);
+        continue;
+      }
+      changes_.written.push_back(stale[i]);
+      changes_.quadrants_made += *quadrants[i];
+      written[stale[i]] = wanted[i];
+    }
+    if (!written.empty()) listener(written);
+  }
+
+  const TileStore& store_;
+  const LevelPlan& plan_;
+  const PyramidState& state_;
+  PyramidChanges& changes_;
+};
+
+std::set<TileKey> parents_of(const Digests& level) {
   std::set<TileKey> parents;
-  for (const TileKey key : tiles) parents.insert(key.parent());
+  for (const auto& [key, digest] : level) parents.insert(key.parent());
   return parents;
 }
 
-// What a parent is computed from: where it lies and what its children were computed from. Nothing without children.
-std::optional<std::string> digest_from_children(const TileStore& store, const Children& children) {
-  bool any = false;
-  raster::Digest digest;
-  digest.add_field(children[0].name());
-  for (const TileKey child : children) {
-    const std::optional<std::string> of_child = store.input_digest(child);
-    any |= of_child.has_value();
-    digest.add_field(of_child.value_or(""));
-  }
-  if (!any) return std::nullopt;
-  return digest.hex();
-}
-
-// Writes the parent, or removes it if it has no children. Whether it was written.
-bool rebuild(const TileStore& store, TileKey key, const LevelPlan& plan) {
-  const Children keys = children_of(key, plan);
-  const std::optional<std::string> digest = digest_from_children(store, keys);
-  if (!digest) {
+// Parents on disk, or on record, that the map does not have.
+void remove_all_but(const std::set<TileKey>& wanted, const TileStore& store, const PyramidState& state,
+                    PyramidChanges& changes) {
+  std::set<TileKey> present;
+  for (const auto& [key, parent] : state.parents) present.insert(key);
+  for (int level = 1; level <= kHighestPossibleLevel; ++level)
+    for (const TileKey key : store.list_remains(level)) present.insert(key);
+  for (const TileKey key : present) {
+    if (wanted.contains(key)) continue;
     store.remove(key);
-    return false;
+    changes.removed.push_back(key);
   }
-  std::array<std::optional<Tile>, 4> tiles;
-  std::array<const Tile*, 4> children{};
-  for (int i = 0; i < 4; ++i) {
-    tiles[i] = store.read(keys[i]);
-    if (tiles[i]) children[i] = &*tiles[i];
-  }
-  store.write(key, merge_children(children, store.lattice().tile_cells), *digest, &plan);
-  return true;
-}
-
-std::vector<TileKey> rebuild_level(const TileStore& store, const std::set<TileKey>& wanted, const LevelPlan& plan,
-                                   Executor& executor) {
-  const std::vector<TileKey> keys(wanted.begin(), wanted.end());
-  std::vector<char> is_written(keys.size());  // not bool: threads write neighbours
-  executor.parallel_for(static_cast<int>(keys.size()), [&](int i) { is_written[i] = rebuild(store, keys[i], plan); });
-  std::vector<TileKey> written;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    if (is_written[i]) written.push_back(keys[i]);
-  return written;
-}
-
-void remove_levels_above(const TileStore& store, int level) {
-  for (int above = level + 1; above <= kHighestPossibleLevel; ++above)
-    for (const TileKey key : store.list(above)) store.remove(key);
 }
 
 }  // namespace
 
-std::vector<TileKey> rebuild_parents(const TileStore& store, const std::vector<TileKey>& changed, Executor& executor) {
-  std::vector<TileKey> level = store.list(0);
-  if (level.empty()) {
-    remove_levels_above(store, 0);
+LevelPlan plan_for(const Digests& finest) {
+  SKY_CHECK(!finest.empty());
+  const TileKey first = finest.begin()->first;
+  int west = first.x, east = first.x, south = first.y, north = first.y;
+  for (const auto& [key, digest] : finest) {
+    west = std::min(west, key.x), east = std::max(east, key.x);
+    south = std::min(south, key.y), north = std::max(north, key.y);
+  }
+  return plan_levels(west, south, east, north);
+}
+
+PyramidChanges update_parents(const TileStore& store, const PyramidState& state, Executor& executor,
+                              const PyramidListener& listener) {
+  PyramidChanges changes;
+  if (state.finest.empty()) {
+    remove_all_but({}, store, state, changes);
     store.remove(TileKey::top());
-    return {};
+    return changes;
   }
-  const LevelPlan plan = plan_for(level);
-  std::vector<TileKey> all_written;
-  std::set<TileKey> wanted = parents_of(changed);
-  for (int l = 1; l <= plan.highest_regular_level; ++l) {
-    const std::vector<TileKey> present = store.list(l);
-    const std::set<TileKey> needed = parents_of(level);
-    std::set_difference(needed.begin(), needed.end(), present.begin(), present.end(),
-                        std::inserter(wanted, wanted.end()));
-    const std::vector<TileKey> written = rebuild_level(store, wanted, plan, executor);
-    all_written.insert(all_written.end(), written.begin(), written.end());
-    // A parent that went away changes its own parent, too.
-    wanted = parents_of({wanted.begin(), wanted.end()});
-    level = store.list(l);
+  const LevelPlan plan = plan_for(state.finest);
+  LevelUpdate update(store, plan, state, changes);
+  Digests below = state.finest;
+  std::set<TileKey> wanted{TileKey::top()};
+  for (int level = 1; level <= plan.highest_regular_level && changes.unreadable.empty(); ++level) {
+    const std::set<TileKey> keys = parents_of(below);
+    wanted.insert(keys.begin(), keys.end());
+    below = update.run(keys, below, executor, listener);
   }
-  const std::vector<TileKey> top = rebuild_level(store, {TileKey::top()}, plan, executor);
-  all_written.insert(all_written.end(), top.begin(), top.end());
-  remove_levels_above(store, plan.highest_regular_level);
-  return all_written;
+  if (!changes.unreadable.empty()) return changes;
+  update.run({TileKey::top()}, below, executor, listener);
+  remove_all_but(wanted, store, state, changes);
+  return changes;
 }
 
-std::vector<TileKey> rebuild_parents(const TileStore& store, const std::vector<TileKey>& changed) {
+PyramidState read_pyramid_state(const TileStore& store) {
+  PyramidState state;
+  for (const TileKey key : store.list(0))
+    if (auto digest = store.input_digest(key)) state.finest[key] = std::move(*digest);
+  const auto add_parent = [&](TileKey key) {
+    if (auto digest = store.input_digest(key)) state.parents[key] = {std::move(*digest), {}};
+  };
+  for (int level = 1; level <= kHighestPossibleLevel; ++level)
+    for (const TileKey key : store.list(level)) add_parent(key);
+  add_parent(TileKey::top());
+  return state;
+}
+
+PyramidChanges update_parents(const TileStore& store) {
   SerialExecutor executor;
-  return rebuild_parents(store, changed, executor);
-}
-
-std::vector<TileKey> find_outdated(const TileStore& store) {
-  std::vector<TileKey> outdated;
-  const std::vector<TileKey> finest = store.list(0);
-  if (finest.empty()) return outdated;
-  const LevelPlan plan = plan_for(finest);
-  for (int level = 1; level <= plan.highest_regular_level; ++level)
-    for (const TileKey key : store.list(level))
-      if (store.input_digest(key) != digest_from_children(store, children_of(key, plan)))
-        outdated.push_back({0, key.x << level, key.y << level});
-  return outdated;
+  return update_parents(store, read_pyramid_state(store), executor, [](const auto&) {});
 }
 
 }  // namespace skysweep::tiles

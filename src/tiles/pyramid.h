@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coarser levels of the map from finer ones: each cell from 2 x 2 cells below it.
+// Coarser levels of the map from finer ones: each cell from 2 x 2 cells below it. Only quadrants of parents whose child
+// has changed are made again (Feldmann 2013).
 #pragma once
 
 #include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/executor.h"
@@ -15,16 +20,50 @@ namespace skysweep::tiles {
 // mean square of the known ones; mask: measured if any is, else filled, else planar, else none.
 Tile merge_children(const std::array<const Tile*, 4>& children, int tile_cells);
 
-// Rebuilds every parent of the `changed` level-0 tiles (written, or removed), level by level, and the top tile; makes
-// those that are missing, because the map has grown to a higher level; removes parents that have no children left and
-// tiles of levels above the plan's highest. `store` then holds levels 0..L-1 for all its level-0 tiles, with the same
-// bytes whatever the order in which they came. The digest of a parent is made of its children's. The tiles of a level
-// are independent and run on the executor. Returns the keys written, finest level first.
-std::vector<TileKey> rebuild_parents(const TileStore& store, const std::vector<TileKey>& changed, Executor& executor);
-std::vector<TileKey> rebuild_parents(const TileStore& store, const std::vector<TileKey>& changed);
+// The same piece by piece: a parent of which nothing is known, and one quadrant of it from its child (null: no-data).
+Tile empty_parent(int tile_cells);
+void put_quadrant(Tile& parent, int quadrant, const Tile* child);
 
-// For the first start after a crash: what to give to rebuild_parents as `changed` so that parents written before their
-// children's last change become right again. Reads the labels of all tiles.
-std::vector<TileKey> find_outdated(const TileStore& store);
+// What a parent was made from. Depends on nothing but the digests of its children and where they lie.
+struct ParentState {
+  std::string digest;
+  // Name and digest of each child, in the order of merge_children; both empty where there is none.
+  struct Child {
+    std::string name, digest;
+    friend bool operator==(const Child&, const Child&) = default;
+  };
+  std::array<Child, 4> children;
+};
+
+// What is on disk.
+struct PyramidState {
+  std::map<TileKey, std::string> finest;   // level-0 tiles with files, and their digests
+  std::map<TileKey, ParentState> parents;  // whole ones only; a digest without children: all of it may be made again
+};
+
+// As the labels of the files tell, which means opening all of them.
+PyramidState read_pyramid_state(const TileStore& store);
+
+struct PyramidChanges {
+  std::vector<TileKey> written;     // finest level first
+  std::vector<TileKey> removed;     // without children left, or of levels that the map no longer has
+  std::vector<TileKey> unreadable;  // tiles needed for a parent that could not be read: nothing above them was made
+  int quadrants_made = 0;
+};
+
+// Called after each level with the parents written.
+using PyramidListener = std::function<void(const std::map<TileKey, ParentState>& written)>;
+
+// Makes, level by level and then the top, every parent whose children are not those it was made from, and removes those
+// without children: the store then holds levels 0..L-1 for its level-0 tiles, with the same bytes whatever it held
+// before. The tiles of a level are independent and run on the executor.
+PyramidChanges update_parents(const TileStore& store, const PyramidState& state, Executor& executor,
+                              const PyramidListener& listener);
+
+// The same without any record but the files themselves.
+PyramidChanges update_parents(const TileStore& store);
+
+// Where a tile lies; the top is as large as two tiles of the level below it.
+LevelPlan plan_for(const std::map<TileKey, std::string>& finest);
 
 }  // namespace skysweep::tiles

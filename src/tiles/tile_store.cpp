@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <system_error>
 #include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "raster/digest.h"
+#include "raster/file_stamp.h"
 
 namespace skysweep::tiles {
 
@@ -26,6 +29,26 @@ std::optional<int> index_from(const std::string& name, char axis) {
   const std::optional<TileKey> key = TileKey::parse(as_key);
   if (!key) return std::nullopt;
   return axis == 'x' ? key->x : key->y;
+}
+
+// Two numbers as they are read back: to the last bit.
+std::string text_of(const std::optional<SearchedHeights>& heights) {
+  if (!heights) return {};
+  const auto shortest = [](double value) {
+    std::array<char, 32> digits;
+    return std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+  };
+  return shortest(heights->low) + " " + shortest(heights->high);
+}
+
+std::optional<SearchedHeights> heights_in(const std::string& text) {
+  SearchedHeights heights;
+  const char* const end = text.data() + text.size();
+  const auto low = std::from_chars(text.data(), end, heights.low);
+  if (low.ec != std::errc() || low.ptr == end || *low.ptr != ' ') return std::nullopt;
+  const auto high = std::from_chars(low.ptr + 1, end, heights.high);
+  if (high.ec != std::errc() || high.ptr != end) return std::nullopt;
+  return heights;
 }
 
 }  // namespace
@@ -80,7 +103,9 @@ void TileStore::write(TileKey key, const Tile& tile, const std::string& input_di
   const auto write_layer = [&](const std::string& layer, const auto& values) {
     SKY_CHECK_EQ(values.width(), lattice_.tile_cells);
     SKY_CHECK_EQ(values.height(), lattice_.tile_cells);
-    raster::write_geotiff(path(key, layer), raster::Raster{values, place, labels(layer, input_digest)});
+    raster::Labels labelled = labels(layer, input_digest);
+    labelled.searched_heights = text_of(tile.searched);
+    raster::write_geotiff(path(key, layer), raster::Raster{values, place, labelled});
   };
   write_layer("color", tile.color);
   write_layer("confidence", tile.confidence);
@@ -107,22 +132,52 @@ std::optional<Tile> TileStore::read(TileKey key) const {
   tile.confidence = take("confidence", raster::read_float_raster(path(key, "confidence")));
   tile.mask = take("mask", raster::read_class_raster(path(key, "mask")));
   if (has_layer(key, "dem_max")) tile.dem_max = take("dem_max", raster::read_float_raster(path(key, "dem_max")));
-  tile.dem = take("dem", raster::read_float_raster(path(key, "dem")));
+  raster::Raster<float> dem = raster::read_float_raster(path(key, "dem"));
+  tile.searched = heights_in(dem.labels.searched_heights);
+  tile.dem = take("dem", std::move(dem));
   const bool one_writing = std::all_of(digests.begin(), digests.end(), [&](const auto& d) { return d == digests[0]; });
   if (!one_writing) return std::nullopt;
   return tile;
 }
 
-std::optional<std::string> TileStore::input_digest(TileKey key) const {
+std::optional<TileOrigin> TileStore::origin(TileKey key) const {
   if (!has_all_files(key)) return std::nullopt;
   try {
-    const std::string digest = raster::read_labels(path(key, "dem")).input_digest;
-    for (const char* layer : kLayers)
-      if (has_layer(key, layer) && raster::read_labels(path(key, layer)).input_digest != digest) return std::nullopt;
-    return digest;
+    const raster::Labels of_dem = raster::read_labels(path(key, "dem"));
+    for (const char* layer : kLayers) {
+      if (!has_layer(key, layer)) continue;
+      const raster::Labels found = raster::read_labels(path(key, layer));
+      if (found.input_digest != of_dem.input_digest || found.searched_heights != of_dem.searched_heights)
+        return std::nullopt;
+    }
+    return TileOrigin{of_dem.input_digest, heights_in(of_dem.searched_heights)};
   } catch (const Error&) {
     return std::nullopt;
   }
+}
+
+std::optional<std::string> TileStore::input_digest(TileKey key) const {
+  std::optional<TileOrigin> found = origin(key);
+  if (!found) return std::nullopt;
+  return std::move(found->input_digest);
+}
+
+std::optional<std::string> TileStore::stamp(TileKey key) const {
+  raster::Digest digest;
+  for (const char* layer : kLayers) {
+    if (!has_layer(key, layer)) continue;
+    const std::optional<std::string> of_file = raster::file_stamp(path(key, layer));
+    if (!of_file) return std::nullopt;
+    digest.add_field(*of_file);
+  }
+  return digest.hex();
+}
+
+std::string TileStore::checksum(TileKey key) const {
+  raster::Digest digest;
+  for (const char* layer : kLayers)
+    if (has_layer(key, layer)) digest.add_field(raster::digest_of_file(path(key, layer)));
+  return digest.hex();
 }
 
 bool TileStore::has_all_files(TileKey key) const {
@@ -132,22 +187,33 @@ bool TileStore::has_all_files(TileKey key) const {
   });
 }
 
-std::vector<TileKey> TileStore::list(int level) const {
-  std::vector<TileKey> keys;
+void TileStore::collect_keys(const std::string& layer, int level, std::vector<TileKey>& keys) const {
   std::error_code error;
   // Absent folders are empty lists.
   for (const fs::directory_entry& column :
-       fs::directory_iterator(folder_ / "dem" / ("l" + std::to_string(level)), error)) {
+       fs::directory_iterator(folder_ / layer / ("l" + std::to_string(level)), error)) {
     const std::optional<int> x = index_from(column.path().filename().string(), 'x');
     if (!x) continue;
     for (const fs::directory_entry& file : fs::directory_iterator(column.path(), error)) {
       const std::optional<int> y = index_from(file.path().stem().string(), 'y');
-      if (!y || file.path().extension() != ".tif") continue;
-      const TileKey key{level, *x, *y};
-      if (has_all_files(key)) keys.push_back(key);
+      if (y && file.path().extension() == ".tif") keys.push_back({level, *x, *y});
     }
   }
+}
+
+std::vector<TileKey> TileStore::list(int level) const {
+  std::vector<TileKey> keys;
+  collect_keys("dem", level, keys);
+  std::erase_if(keys, [&](TileKey key) { return !has_all_files(key); });
   std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+std::vector<TileKey> TileStore::list_remains(int level) const {
+  std::vector<TileKey> keys;
+  for (const char* layer : kLayers) collect_keys(layer, level, keys);
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   return keys;
 }
 

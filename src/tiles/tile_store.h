@@ -25,13 +25,27 @@ enum class CellSource : std::uint8_t {
   planar = 3,    // no height; colour from the planar fallback
 };
 
+// Between which heights the surface of a tile was looked for, metres.
+struct SearchedHeights {
+  double low = 0;
+  double high = 0;
+  friend bool operator==(const SearchedHeights&, const SearchedHeights&) = default;
+};
+
 // All layers of one tile, T x T cells each, row 0 in the north.
 struct Tile {
-  Array2d<float> dem;          // mean height, metres; NaN = no data
-  Array2d<float> dem_max;      // highest height below the cell; empty at level 0, where it equals dem
-  Array2d<Rgba8> color;        // alpha 0 = no colour
-  Array2d<float> confidence;   // standard deviation of the height, metres; NaN = no data
-  Array2d<std::uint8_t> mask;  // CellSource
+  Array2d<float> dem;                            // mean height, metres; NaN = no data
+  Array2d<float> dem_max;                        // highest height below the cell; empty at level 0, where it equals dem
+  Array2d<Rgba8> color;                          // alpha 0 = no colour
+  Array2d<float> confidence;                     // standard deviation of the height, metres; NaN = no data
+  Array2d<std::uint8_t> mask;                    // CellSource
+  std::optional<SearchedHeights> searched = {};  // goes into the labels: a part of what the tile was made from
+};
+
+// What a tile's own files say of where it comes from.
+struct TileOrigin {
+  std::string input_digest;
+  std::optional<SearchedHeights> searched;
 };
 
 class TileStore {
@@ -54,11 +68,21 @@ class TileStore {
   // because a crash fell between them. Throws Error(bad_input) naming the file if one is damaged or lies elsewhere.
   std::optional<Tile> read(TileKey key) const;
 
-  // The digest the tile was written with; nothing if the tile is absent, incomplete or cannot be read.
+  // What the tile was written with; nothing if the tile is absent, incomplete or cannot be read.
+  std::optional<TileOrigin> origin(TileKey key) const;
   std::optional<std::string> input_digest(TileKey key) const;
+
+  // Sizes and times of the tile's files as one text (raster/file_stamp.h); nothing unless all of them are there.
+  std::optional<std::string> stamp(TileKey key) const;
+
+  // Digest of the bytes of the tile's files. Throws Error(bad_input) naming a file that cannot be read.
+  std::string checksum(TileKey key) const;
 
   // Tiles of a level of which all files are on disk, sorted.
   std::vector<TileKey> list(int level) const;
+
+  // Tiles of a level of which any file is on disk, sorted: those that an interrupted removal left incomplete, too.
+  std::vector<TileKey> list_remains(int level) const;
 
   // Removes a tile; nothing happens if it is absent.
   void remove(TileKey key) const;
@@ -68,6 +92,7 @@ class TileStore {
  private:
   raster::GeoReference georeference(TileKey key, const LevelPlan* plan) const;
   bool has_all_files(TileKey key) const;
+  void collect_keys(const std::string& layer, int level, std::vector<TileKey>& keys) const;
 
   std::filesystem::path folder_;
   Lattice lattice_;

@@ -60,13 +60,24 @@ ImageRecord random_image(const std::string& name, Random& random) {
   image.footprint = camera::footprint(camera, 0, 0, 1e4);
   image.content_digest = "xxh3:" + std::to_string(random.next());
   image.file_bytes = 8'123'456'789;
+  image.stamp = "8123456789 1.5 1.25 " + std::to_string(random.next());
   return image;
 }
 
 TileRecord some_tile(const std::string& name) {
-  return {
-      name, 0,      {{512'000.2, -51.2}, {512'051.4, 0.1}}, "xxh3:77", {"DJI_1.jpg", "DJI_2.jpg"}, 0.987654321, -3.25,
-      41.1, 1.0 / 3};
+  return {name,
+          0,
+          {{512'000.2, -51.2}, {512'051.4, 0.1}},
+          "xxh3:77",
+          {"DJI_1.jpg", "DJI_2.jpg"},
+          0.987654321,
+          -3.25,
+          41.1,
+          1.0 / 3,
+          "candidates",
+          {"ab-cd", "ef-01"},
+          "checksum",
+          "stamp"};
 }
 
 void expect_equal(const ImageRecord& a, const ImageRecord& b) {
@@ -79,6 +90,8 @@ void expect_equal(const ImageRecord& a, const ImageRecord& b) {
   EXPECT_EQ(a.reason, b.reason) << a.name;
   EXPECT_EQ(a.content_digest, b.content_digest) << a.name;
   EXPECT_EQ(a.file_bytes, b.file_bytes) << a.name;
+  EXPECT_EQ(a.stamp, b.stamp) << a.name;
+  EXPECT_EQ(a, b) << a.name;
 }
 
 void expect_equal(const TileRecord& a, const TileRecord& b) {
@@ -91,6 +104,7 @@ void expect_equal(const TileRecord& a, const TileRecord& b) {
   EXPECT_EQ(a.z_low, b.z_low);
   EXPECT_EQ(a.z_high, b.z_high);
   EXPECT_EQ(a.seconds, b.seconds);
+  EXPECT_EQ(a, b) << "candidates_digest, view_digests, checksum or stamp";
 }
 
 template <typename Record>
@@ -144,6 +158,7 @@ TEST_F(CatalogueTest, gives_back_every_image_bit_for_bit_after_reopening) {
   images[3].status = ImageStatus::oblique;
   images[3].reason = "50 degrees from nadir, more than 40";
   images[3].view_class = camera::ViewClass::high_oblique;
+  images[5].status = ImageStatus::removed;
   images[4].pose.cam_from_world.m[1] = 0.1 + 0.2;  // not quite a rotation any more: still nobody may round it
   { Catalogue(path(), kUtm).put_images(images); }
   expect_equal(Catalogue(path(), kUtm).images(), images);
@@ -155,6 +170,32 @@ TEST_F(CatalogueTest, gives_back_every_tile_after_reopening) {
   tiles[2].views.clear();
   { Catalogue(path(), kUtm).put_tiles(tiles); }
   expect_equal(Catalogue(path(), kUtm).tiles(), tiles);
+}
+
+TEST_F(CatalogueTest, keeps_what_the_products_were_made_from) {
+  Catalogue catalogue(path(), kUtm);
+  catalogue.put_products({{"ortho", "d1", "s1"}, {"dsm", "d1", "s2"}});
+  catalogue.put_products({{"dsm", "d2", "s3"}});
+  ASSERT_EQ(catalogue.products().size(), 2u);
+  EXPECT_EQ(catalogue.products()[0].digest, "d2");
+  EXPECT_EQ(catalogue.products()[0].stamp, "s3");
+  catalogue.remove_products({"dsm", "none"});
+  EXPECT_EQ(catalogue.products().size(), 1u);
+}
+
+TEST_F(CatalogueTest, looking_changes_no_byte_and_makes_no_file) {
+  Random random(62);
+  Catalogue(path(), kUtm).put_images({random_image("a", random)});
+  const auto bytes = [&] {
+    std::ifstream in(path(), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string before = bytes();
+  EXPECT_EQ(Catalogue::open_existing(path()).images().size(), 1u);
+  EXPECT_EQ(Catalogue(path(), kUtm).images().size(), 1u);
+  EXPECT_TRUE(bytes() == before);
+  EXPECT_EQ(error_of([&] { Catalogue::open_existing(folder_ / "none.gpkg"); }).second, ErrorKind::bad_input);
+  EXPECT_FALSE(fs::exists(folder_ / "none.gpkg"));
 }
 
 TEST_F(CatalogueTest, sorts_by_name_whatever_the_order_of_arrival) {

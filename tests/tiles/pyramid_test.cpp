@@ -40,7 +40,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 std::map<std::string, std::string> built_at_once(const fs::path& folder, const std::vector<TileKey>& keys) {
   const TileStore store = store_in(folder);
   for (const TileKey key : keys) write_finest(store, key);
-  rebuild_parents(store, keys);
+  update_parents(store);
   return contents(folder);
 }
 
@@ -61,7 +61,7 @@ TEST(Pyramid, growing_in_any_direction_and_order_gives_the_same_bytes) {
       std::vector<TileKey> step;
       for (int n = 1 + random.below(3); n > 0 && i < order.size(); --n) step.push_back(order[i++]);
       for (const TileKey key : step) write_finest(store, key);
-      rebuild_parents(store, step);
+      update_parents(store);
     }
     EXPECT_EQ(contents(grown), expected);
   }
@@ -72,11 +72,11 @@ TEST(Pyramid, tile_written_again_changes_its_parents_as_if_it_had_always_been_so
   const auto expected = built_at_once(folder / "at-once", kScattered);
   const TileStore store = store_in(folder / "changed");
   for (const TileKey key : kScattered) write_finest(store, key, 99);
-  rebuild_parents(store, kScattered);
+  update_parents(store);
   EXPECT_NE(contents(folder / "changed"), expected);
   for (const TileKey key : kScattered) {
     write_finest(store, key);
-    rebuild_parents(store, {key});
+    update_parents(store);
   }
   EXPECT_EQ(contents(folder / "changed"), expected);
 }
@@ -89,10 +89,10 @@ TEST(Pyramid, removed_tiles_leave_no_trace) {
   built_at_once(folder / "shrunk", more);
   const TileStore store = store_in(folder / "shrunk");
   for (const TileKey key : passing) store.remove(key);
-  rebuild_parents(store, passing);
+  update_parents(store);
   EXPECT_EQ(contents(folder / "shrunk"), built_at_once(folder / "at-once", kScattered));
   for (const TileKey key : kScattered) store.remove(key);
-  EXPECT_TRUE(rebuild_parents(store, kScattered).empty());
+  EXPECT_TRUE(update_parents(store).written.empty());
   EXPECT_TRUE(contents(folder / "shrunk").empty());
 }
 
@@ -101,7 +101,7 @@ TEST(Pyramid, threads_make_the_same_bytes) {
   const TileStore store = store_in(folder / "threads");
   for (const TileKey key : kScattered) write_finest(store, key);
   ThreadExecutor executor(4);
-  rebuild_parents(store, kScattered, executor);
+  update_parents(store, read_pyramid_state(store), executor, [](const auto&) {});
   EXPECT_EQ(contents(folder / "threads"), built_at_once(folder / "at-once", kScattered));
 }
 
@@ -112,21 +112,110 @@ TEST(Pyramid, only_the_parents_of_changed_tiles_are_written) {
   std::vector<TileKey> expected;
   for (TileKey key = TileKey{0, -9, 2}.parent(); key.level <= 4; key = key.parent()) expected.push_back(key);
   expected.push_back(TileKey::top());
-  EXPECT_EQ(rebuild_parents(store, {{0, -9, 2}}), expected);
+  EXPECT_TRUE(update_parents(store).written.empty());
+  write_finest(store, {0, -9, 2}, 99);
+  EXPECT_EQ(update_parents(store).written, expected);
+}
+
+// Keeps the record that a pipeline keeps in its catalogue.
+class RecordedPyramid {
+ public:
+  explicit RecordedPyramid(const fs::path& folder) : store(store_in(folder)) {}
+
+  void write(TileKey key, std::uint64_t seed = 0) {
+    write_finest(store, key, seed);
+    state.finest[key] = store.input_digest(key).value();
+  }
+
+  PyramidChanges update() {
+    SerialExecutor executor;
+    PyramidChanges changes = update_parents(store, state, executor, [&](const auto& written) {
+      for (const auto& [key, parent] : written) state.parents[key] = parent;
+    });
+    for (const TileKey key : changes.removed) state.parents.erase(key);
+    return changes;
+  }
+
+  TileStore store;
+  PyramidState state;
+};
+
+TEST(Pyramid, only_the_changed_quadrants_are_made_and_the_bytes_are_those_of_all) {
+  const TempFolder folder;
+  RecordedPyramid grown(folder / "grown");
+  for (const TileKey key : kScattered) grown.write(key, key == TileKey{0, 5, 3} ? 99 : 0);
+  grown.update();
+  grown.write({0, 5, 3});
+  const PyramidChanges changes = grown.update();
+  EXPECT_EQ(changes.written.size(), 5u);  // levels 1 to 4 and the top
+  EXPECT_EQ(changes.quadrants_made, 5);
+  EXPECT_EQ(contents(folder / "grown"), built_at_once(folder / "at-once", kScattered));
+}
+
+TEST(Pyramid, unchanged_neighbours_are_not_even_read) {
+  const TempFolder folder;
+  RecordedPyramid map(folder / "map");
+  const std::vector<TileKey> four = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {0, 4, 0}};
+  for (const TileKey key : four) map.write(key);
+  map.update();
+  for (const char* layer : {"dem", "color", "confidence", "mask"})
+    put_bytes(map.store.path({0, 1, 1}, layer), "no raster");
+  map.write({0, 0, 0}, 99);
+  const PyramidChanges changes = map.update();
+  EXPECT_TRUE(changes.unreadable.empty());
+  EXPECT_EQ(changes.written.front(), (TileKey{1, 0, 0}));
+}
+
+TEST(Pyramid, tile_that_cannot_be_read_is_named_and_nothing_is_made_above_it) {
+  const TempFolder folder;
+  RecordedPyramid map(folder / "map");
+  for (const TileKey key : kScattered) map.write(key);
+  put_bytes(map.store.path({0, 5, 3}, "dem"), "no raster");
+  const PyramidChanges changes = map.update();
+  EXPECT_EQ(changes.unreadable, std::vector<TileKey>{(TileKey{0, 5, 3})});
+  EXPECT_FALSE(map.store.read(TileKey::top()));
+  map.write({0, 5, 3});
+  EXPECT_TRUE(map.update().unreadable.empty());
+  EXPECT_EQ(contents(folder / "map"), built_at_once(folder / "at-once", kScattered));
+}
+
+TEST(Pyramid, parent_that_went_bad_is_made_again_from_all_its_children) {
+  const TempFolder folder;
+  RecordedPyramid map(folder / "map");
+  for (const TileKey key : kScattered) map.write(key, key == TileKey{0, 4, -7} ? 99 : 0);
+  map.update();
+  put_bytes(map.store.path({1, 2, -4}, "color"), "no raster");
+  map.write({0, 4, -7});
+  EXPECT_TRUE(map.update().unreadable.empty());
+  EXPECT_EQ(contents(folder / "map"), built_at_once(folder / "at-once", kScattered));
+}
+
+TEST(Pyramid, growing_over_the_top_discards_it_and_keeps_what_lies_below) {
+  const TempFolder folder;
+  RecordedPyramid map(folder / "map");
+  for (const TileKey key : {TileKey{0, 0, 0}, TileKey{0, 1, 0}, TileKey{0, 2, 0}, TileKey{0, 3, 1}}) map.write(key);
+  map.update();
+  const std::string parent = file_bytes(map.store.path({1, 0, 0}, "dem"));
+  map.write({0, -40, 25});
+  const PyramidChanges changes = map.update();
+  EXPECT_EQ(std::count(changes.written.begin(), changes.written.end(), TileKey{1, 0, 0}), 0);
+  EXPECT_EQ(file_bytes(map.store.path({1, 0, 0}, "dem")), parent);
+  map.store.remove({0, -40, 25});
+  map.state.finest.erase({0, -40, 25});
+  EXPECT_FALSE(map.update().removed.empty());
+  EXPECT_TRUE(map.store.list_remains(2).empty());
 }
 
 TEST(Pyramid, parents_older_than_their_children_are_found_after_a_crash) {
   const TempFolder folder;
   built_at_once(folder.path(), kScattered);
   const TileStore store = store_in(folder.path());
-  EXPECT_TRUE(find_outdated(store).empty());
-  write_finest(store, {0, 5, 3}, 99);  // and the crash comes before rebuild_parents
+  write_finest(store, {0, 5, 3}, 99);  // and the crash comes before the parents
   const auto before = contents(folder.path());
-  rebuild_parents(store, find_outdated(store));
+  update_parents(store);
   const auto repaired = contents(folder.path());
   EXPECT_NE(repaired, before);
-  EXPECT_TRUE(find_outdated(store).empty());
-  rebuild_parents(store, {{0, 5, 3}});
+  EXPECT_TRUE(update_parents(store).written.empty());
   EXPECT_EQ(contents(folder.path()), repaired);
 }
 
@@ -136,7 +225,7 @@ TEST(Pyramid, parents_lost_in_a_crash_are_made_again) {
   const TileStore store = store_in(folder.path());
   for (const int level : {1, 3})
     for (const TileKey key : store.list(level)) store.remove(key);
-  rebuild_parents(store, {});
+  update_parents(store);
   EXPECT_EQ(contents(folder.path()), expected);
 }
 
@@ -163,7 +252,7 @@ TEST(Pyramid, top_of_a_small_map_holds_the_means_of_its_tiles) {
   store.write({0, -1, 0}, tile, "west");
   tile.dem = Array2d<float>(kCells, kCells, 9);
   store.write({0, 0, 0}, tile, "east");
-  rebuild_parents(store, {{0, -1, 0}, {0, 0, 0}});
+  update_parents(store);
   const Tile top = store.read(TileKey::top()).value();
   EXPECT_EQ(top.dem(0, kCells - 1), 5.0f);
   EXPECT_EQ(top.dem(kCells / 2 - 1, kCells / 2), 5.0f);

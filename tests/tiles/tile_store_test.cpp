@@ -89,6 +89,52 @@ TEST(TileStore, absent_and_incomplete_tiles_read_as_nothing) {
   }
 }
 
+TEST(TileStore, origin_comes_back_to_the_last_bit) {
+  const TempFolder folder;
+  const TileStore store = store_in(folder);
+  Tile tile = random_tile({0, 1, 2}, kCells);
+  store.write({0, 1, 2}, tile, "unknown");
+  EXPECT_EQ(store.origin({0, 1, 2})->searched, std::nullopt);
+  tile.searched = SearchedHeights{-1.0 / 3, 1e7 / 7};
+  store.write({0, 1, 2}, tile, "known");
+  EXPECT_EQ(store.origin({0, 1, 2})->input_digest, "known");
+  EXPECT_EQ(store.origin({0, 1, 2})->searched, tile.searched);
+  EXPECT_EQ(store.read({0, 1, 2})->searched, tile.searched);
+  EXPECT_FALSE(store.origin({0, 9, 9}));
+}
+
+TEST(TileStore, checksum_is_of_the_bytes_and_stamp_of_every_touch) {
+  const TempFolder folder;
+  const TileStore store = store_in(folder);
+  const TileKey key{0, 1, 2};
+  store.write(key, random_tile(key, kCells), "d");
+  const std::string checksum = store.checksum(key);
+  const std::optional<std::string> stamp = store.stamp(key);
+  EXPECT_EQ(store.stamp(key), stamp);
+  const std::string bytes = file_bytes(store.path(key, "mask"));
+  const auto time = fs::last_write_time(store.path(key, "mask"));
+  std::string damaged = bytes;
+  damaged[damaged.size() / 2] ^= 1;
+  put_bytes(store.path(key, "mask"), damaged);
+  fs::last_write_time(store.path(key, "mask"), time);  // as if the clock had been set back
+  EXPECT_NE(store.stamp(key), stamp);
+  EXPECT_NE(store.checksum(key), checksum);
+  put_bytes(store.path(key, "mask"), bytes);
+  EXPECT_EQ(store.checksum(key), checksum);
+  fs::remove(store.path(key, "mask"));
+  EXPECT_FALSE(store.stamp(key));
+  EXPECT_THROW(store.checksum(key), Error);
+}
+
+TEST(TileStore, remains_of_a_removal_are_listed) {
+  const TempFolder folder;
+  const TileStore store = store_in(folder);
+  store.write({0, 1, 2}, random_tile({0, 1, 2}, kCells), "d");
+  fs::remove(store.path({0, 1, 2}, "dem"));
+  EXPECT_TRUE(store.list(0).empty());
+  EXPECT_EQ(store.list_remains(0), std::vector{(TileKey{0, 1, 2})});
+}
+
 // A crash between two layers of a tile that is written a second time leaves new layers beside old ones.
 TEST(TileStore, layers_of_two_writings_are_no_tile) {
   const TempFolder folder;

@@ -2,12 +2,16 @@
 #include <cstdio>
 
 #include "app/commands/commands.h"
+#include "app/printable.h"
 #include "core/error.h"
 #include "formats/pose_set.h"
 #include "index/catalogue.h"
 #include "pipeline/coverage.h"
+#include "pipeline/tile_check.h"
 #include "pipeline/tile_geometry.h"
 #include "raster/crs.h"
+#include "raster/digest.h"
+#include "raster/file_stamp.h"
 #include "raster/photo.h"
 
 namespace skysweep::app {
@@ -18,13 +22,14 @@ struct InfoOptions {
   std::optional<std::string> tile;
 };
 
-void print(const std::string& line) { std::puts(line.c_str()); }
+void print(const std::string& line) { std::puts(printable(line).c_str()); }
 
 void print_project(const pipeline::ProjectPaths& paths) {
   const pipeline::ProjectSettings s = pipeline::read_project(paths);
-  const index::Catalogue catalogue(paths.catalogue(), s.crs_wkt);
+  const index::Catalogue catalogue = index::Catalogue::open_existing(paths.catalogue());
   const std::vector<index::ImageRecord> images = catalogue.images();
-  const std::vector<index::TileRecord> tiles = catalogue.tiles();
+  std::vector<index::TileRecord> tiles = catalogue.tiles();
+  std::erase_if(tiles, [](const index::TileRecord& tile) { return tile.level > 0; });
   std::printf("project    %s\nCRS        %s\nheights    %s\n", paths.folder.c_str(),
               raster::crs_name(s.crs_wkt).c_str(), raster::vertical_reference(s.crs_wkt).c_str());
   std::printf("lattice    cells of %g m, tiles of %d x %d cells, plane step %g m\n", s.lattice.cell_m,
@@ -46,13 +51,47 @@ void print_project(const pipeline::ProjectPaths& paths) {
       print(std::string(index::to_string(image.status)) + "    " + image.name + ": " + image.reason);
 }
 
+// The photographs with their bytes as they are on disk now; their poses are those of the last run.
+std::vector<index::ImageRecord> looked_at_again(std::vector<index::ImageRecord> images,
+                                                const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) {
+    print("The photographs' folder " + folder.string() + " is not there: judged by what the last run saw.");
+    return images;
+  }
+  for (index::ImageRecord& image : images) {
+    if (image.status != index::ImageStatus::used) continue;
+    const std::optional<std::string> stamp = raster::file_stamp(folder / image.name);
+    if (!stamp) {
+      image.status = index::ImageStatus::refused;
+      image.reason = "its file is gone.";
+    } else if (*stamp != image.stamp) {
+      image.content_digest = raster::digest_of_file(folder / image.name);
+    }
+  }
+  return images;
+}
+
+// Whether the next run would compute a tile, and why.
+void print_state(const pipeline::ProjectPaths& paths, const pipeline::ProjectSettings& settings, tiles::TileKey key,
+                 const index::TileRecord* row, const std::vector<index::ImageRecord>& images) {
+  const std::vector<index::ImageRecord> now = looked_at_again(images, settings.images);
+  const pipeline::Coverage coverage(now, settings);
+  const auto candidates = coverage.candidates(key);
+  if (static_cast<int>(candidates.size()) < settings.configuration.sweep.min_views)
+    return print("It is touched by " + std::to_string(candidates.size()) + " photographs, too few for a tile.");
+  const tiles::TileStore store = pipeline::open_store(paths, settings);
+  const pipeline::TileCheck check = pipeline::TileChecker(settings, store, false).check(key, coverage, row);
+  print(std::string(check.fresh ? "It is up to date: " : "It is stale, the next run computes it: ") + check.why + ".");
+}
+
 // Which photographs serve a tile, and why the others do not.
 void print_tile(const pipeline::ProjectPaths& paths, const std::string& name) {
   const auto key = tiles::TileKey::parse(name);
   if (!key || key->level != 0)
     throw usage_error("--tile takes the name of a level-0 tile, such as l0x-7y4, not '" + name + "'.");
   const pipeline::ProjectSettings settings = pipeline::read_project(paths);
-  const index::Catalogue catalogue(paths.catalogue(), settings.crs_wkt);
+  const index::Catalogue catalogue = index::Catalogue::open_existing(paths.catalogue());
   const std::vector<index::ImageRecord> images = catalogue.images();
   const auto candidates = pipeline::Coverage(images, settings).candidates(*key);
   const pipeline::TileGeometry geometry(*key, candidates, settings);
@@ -66,10 +105,11 @@ void print_tile(const pipeline::ProjectPaths& paths, const std::string& name) {
                 100 * tile->valid_share, tile->z_low, tile->z_high, tile->seconds);
     if (!tile->views.empty() && tile->z_high > tile->z_low) heights = {tile->z_low, tile->z_high};
   }
+  print_state(paths, settings, *key, tile == tiles.end() ? nullptr : &*tile, images);
   for (const index::ViewVerdict& v : geometry.select(heights).verdicts) {
     std::printf("%s %-24s %5.1f %% of the tile, %4.1f degrees from nadir, GSD %.3f m: %s\n",
-                v.chosen ? "used    " : "not used", v.name.c_str(), 100 * v.coverage, v.off_nadir_deg, v.gsd_m,
-                v.reason.c_str());
+                v.chosen ? "used    " : "not used", printable(v.name).c_str(), 100 * v.coverage, v.off_nadir_deg,
+                v.gsd_m, v.reason.c_str());
   }
 }
 
@@ -80,9 +120,9 @@ void print_poses(const std::string& path) {
   for (const formats::RefusedImage& image : poses.refused) print("refused  " + image.reason);
   for (const formats::PosedImage& image : poses.images) {
     const Vec3d c = image.pose.center;
-    std::printf("%-24s at %.3f %.3f %.3f, %4.1f degrees from nadir, %d x %d, f %.1f px\n", image.name.c_str(), c.x, c.y,
-                c.z, camera::off_nadir_deg(image.pose), image.model.width_px, image.model.height_px,
-                image.model.focal_px());
+    std::printf("%-24s at %.3f %.3f %.3f, %4.1f degrees from nadir, %d x %d, f %.1f px\n",
+                printable(image.name).c_str(), c.x, c.y, c.z, camera::off_nadir_deg(image.pose), image.model.width_px,
+                image.model.height_px, image.model.focal_px());
   }
 }
 
@@ -105,7 +145,8 @@ void add_info_command(CLI::App& program, ChosenCommand& chosen) {
   CLI::App* command = program.add_subcommand("info", "What a project, one of its tiles, or a pose file holds.");
   auto o = std::make_shared<InfoOptions>();
   command->add_option("PATH", o->path, "Project folder or pose file")->required();
-  command->add_option("--tile", o->tile, "Explain which photographs serve this tile, e.g. l0x-7y4");
+  command->add_option("--tile", o->tile,
+                      "Explain whether this tile is up to date and which photographs serve it, e.g. l0x-7y4");
   command->callback([o, &chosen] { chosen = [o] { return info(*o); }; });
 }
 

@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "app/option_values.h"
 #include "core/error.h"
+#include "pipeline/project_lock.h"
 #include "pipeline/session.h"
 #include "raster/crs.h"
 
@@ -21,6 +22,8 @@ struct RunOptions {
   std::optional<double> cell, dz;
   int threads = 0;
   bool no_fill = false, planar_fallback = false, fresh = false, strict = false, dry_run = false, json_log = false;
+  bool verify = false;
+  std::vector<std::string> remove, restore;
 };
 
 pipeline::RunRequest request_from(const RunOptions& options) {
@@ -45,6 +48,9 @@ pipeline::RunRequest request_from(const RunOptions& options) {
   request.planar_fallback = options.planar_fallback;
   request.fresh = options.fresh;
   request.dry_run = options.dry_run;
+  request.verify = options.verify;
+  request.remove = options.remove;
+  request.restore = options.restore;
   return request;
 }
 
@@ -53,9 +59,10 @@ void say_plan(const pipeline::RunSummary& summary, Console& console) {
   const auto used = std::count_if(summary.images.begin(), summary.images.end(),
                                   [](const auto& image) { return image.status == index::ImageStatus::used; });
   console.say(std::to_string(used) + " of " + std::to_string(summary.images.size()) + " photographs would be used, " +
-              std::to_string(summary.tiles_planned) + " tiles of " + std::to_string(s.lattice.tile_cells) + " x " +
-              std::to_string(s.lattice.tile_cells) + " cells of " + std::to_string(s.lattice.cell_m) +
-              " m, plane step " + std::to_string(s.lattice.dz_m) + " m.");
+              std::to_string(summary.tiles_planned) + " tiles (" + std::to_string(summary.tiles_stale) +
+              " to compute, " + std::to_string(summary.tiles_kept) + " up to date) of " +
+              std::to_string(s.lattice.tile_cells) + " x " + std::to_string(s.lattice.tile_cells) + " cells of " +
+              std::to_string(s.lattice.cell_m) + " m, plane step " + std::to_string(s.lattice.dz_m) + " m.");
   console.say("CRS: " + raster::crs_name(s.crs_wkt) + ". Heights: " + raster::vertical_reference(s.crs_wkt) + ".");
   console.say("Memory: up to " + memory_text(summary.memory.limit_bytes) + ", " +
               std::to_string(summary.memory.tiles_in_flight) + " tiles at a time, " +
@@ -74,6 +81,8 @@ int run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const pipeline::RunRequest request = request_from(options);
   Console console(options.json_log);
+  std::optional<pipeline::ProjectLock> lock;  // until the mosaics are written, too
+  if (!request.dry_run) lock.emplace(request.project);
   const pipeline::RunSummary summary = pipeline::run(request, console, interrupt_requested());
   if (options.dry_run) {
     say_plan(summary, console);
@@ -113,6 +122,13 @@ void add_run_command(CLI::App& program, ChosenCommand& chosen) {
   command->add_flag("--planar-fallback", o->planar_fallback,
                     "Colour cells without height from a horizontal plane, marked as such in the mask");
   command->add_flag("--fresh", o->fresh, "Start over: throw away what the project folder holds");
+  command->add_option("--remove", o->remove,
+                      "Take the photographs that match this pattern out of the project, e.g. 'flight2/*'; their files "
+                      "are left alone");
+  command->add_option("--restore", o->restore, "Take photographs back that --remove took out");
+  command->add_flag("--verify", o->verify,
+                    "Read every photograph and every tile again instead of trusting sizes and times; what is damaged "
+                    "is made anew");
   command->add_flag("--strict", o->strict, "End with exit code 3 if any photograph was refused");
   command->add_flag("--dry-run", o->dry_run, "Say what would be done and what it takes; write nothing");
   command->add_flag("--json-log", o->json_log, "One JSON object a line instead of text");

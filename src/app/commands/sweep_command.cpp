@@ -93,7 +93,7 @@ int dump_tile(const SweepOptions& options) {
     throw usage_error("--tile takes the name of a level-0 tile, such as l0x-7y4, not '" + options.tile + "'.");
   const pipeline::ProjectSettings settings = pipeline::read_project(paths);
   pipeline::use_recorded_engine(settings);
-  const std::vector<index::ImageRecord> images = index::Catalogue(paths.catalogue(), settings.crs_wkt).images();
+  const std::vector<index::ImageRecord> images = index::Catalogue::open_existing(paths.catalogue()).images();
   const pipeline::Coverage coverage(images, settings);
   pipeline::PhotoCache photos(options.images ? std::filesystem::path(*options.images) : settings.images,
                               kPhotoCacheBytes, settings.configuration.sweep.normalization());

@@ -107,6 +107,7 @@ void put_image(OGRFeature& row, const ImageRecord& image, CameraTable& cameras) 
   row.SetField("view_class", camera::to_string(image.view_class));
   row.SetField("digest", image.content_digest.c_str());
   row.SetField("file_bytes", static_cast<GIntBig>(image.file_bytes));
+  row.SetField("stamp", image.stamp.c_str());
   if (const CameraNumbers numbers = numbers_of(image.model);
       !(image.model == camera::CameraModel{}) && all_finite(numbers)) {
     row.SetField("camera", cameras.id_of(numbers));
@@ -129,12 +130,14 @@ ImageRecord image_in(const OGRFeature& row, const std::map<GIntBig, camera::Came
   using camera::ViewClass;
   ImageRecord image;
   image.name = row.GetFieldAsString("name");
-  image.status = enum_in(row, "status", {ImageStatus::used, ImageStatus::oblique, ImageStatus::refused});
+  image.status =
+      enum_in(row, "status", {ImageStatus::used, ImageStatus::oblique, ImageStatus::refused, ImageStatus::removed});
   image.reason = row.GetFieldAsString("reason");
   image.view_class = enum_in(
       row, "view_class", {ViewClass::vertical, ViewClass::near_vertical, ViewClass::oblique, ViewClass::high_oblique});
   image.content_digest = row.GetFieldAsString("digest");
   image.file_bytes = row.GetFieldAsInteger64("file_bytes");
+  image.stamp = row.GetFieldAsString("stamp");
   if (row.IsFieldSetAndNotNull(row.GetFieldIndex("camera"))) {
     const auto known = cameras.find(row.GetFieldAsInteger64("camera"));
     if (known == cameras.end()) throw bad_input("the camera of " + image.name + " is not in it");

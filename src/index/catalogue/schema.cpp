@@ -34,6 +34,7 @@ std::vector<LayerSchema> schema() {
   for (const char* name : {"qw", "qx", "qy", "qz"}) images.columns.push_back({name, OFTReal});
   images.columns.push_back({"digest", OFTString});
   images.columns.push_back({"file_bytes", OFTInteger64});
+  images.columns.push_back({"stamp", OFTString});
 
   LayerSchema cameras{"cameras", wkbNone, {}, nullptr};
   for (std::size_t i = 0; i < kCameraColumns.size(); ++i)
@@ -49,9 +50,17 @@ std::vector<LayerSchema> schema() {
                            {"valid_share", OFTReal},
                            {"z_low", OFTReal},
                            {"z_high", OFTReal},
-                           {"seconds", OFTReal}},
+                           {"seconds", OFTReal},
+                           {"candidates_digest", OFTString},
+                           {"view_digests", OFTString},  // JSON array, one per view
+                           {"checksum", OFTString},
+                           {"stamp", OFTString}},
                           "CREATE UNIQUE INDEX tiles_name ON tiles (name)"};
-  return {images, cameras, tiles};
+  const LayerSchema products{"products",
+                             wkbNone,
+                             {{"name", OFTString}, {"digest", OFTString}, {"stamp", OFTString}},
+                             "CREATE UNIQUE INDEX products_name ON products (name)"};
+  return {images, cameras, tiles, products};
 }
 
 }  // namespace

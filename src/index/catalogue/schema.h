@@ -22,7 +22,8 @@ constexpr std::array<const char*, 12> kPoseColumns = {"x",      "y",      "z",  
 // Throws Error(bad_input) if it cannot be understood.
 OGRSpatialReference catalogue_crs(const std::string& wkt);
 
-// Makes the layers `images`, `cameras` and `tiles` in an empty GeoPackage. Failures are left to the caller's QuietGdal.
+// Makes the layers `images`, `cameras`, `tiles` and `products` in an empty GeoPackage. Failures are left to the
+// caller's QuietGdal.
 void make_layers(GDALDataset& dataset, const OGRSpatialReference& crs);
 
 // What a file lacks to be a catalogue, as the rest of a sentence ("has no layer images"); empty if nothing.

@@ -33,6 +33,10 @@ void put_tile(OGRFeature& row, const TileRecord& tile) {
   row.SetField("z_low", tile.z_low);
   row.SetField("z_high", tile.z_high);
   row.SetField("seconds", tile.seconds);
+  row.SetField("candidates_digest", tile.candidates_digest.c_str());
+  row.SetField("view_digests", json_from(tile.view_digests).c_str());
+  row.SetField("checksum", tile.checksum.c_str());
+  row.SetField("stamp", tile.stamp.c_str());
 }
 
 TileRecord tile_in(const OGRFeature& row) {
@@ -46,6 +50,10 @@ TileRecord tile_in(const OGRFeature& row) {
   tile.z_low = row.GetFieldAsDouble("z_low");
   tile.z_high = row.GetFieldAsDouble("z_high");
   tile.seconds = row.GetFieldAsDouble("seconds");
+  tile.candidates_digest = row.GetFieldAsString("candidates_digest");
+  tile.view_digests = names_in(row.GetFieldAsString("view_digests"));
+  tile.checksum = row.GetFieldAsString("checksum");
+  tile.stamp = row.GetFieldAsString("stamp");
   return tile;
 }
 

@@ -14,6 +14,7 @@ namespace {
 constexpr const char* kContent = "CONTENT";
 constexpr const char* kVerticalReference = "VERTICAL_REFERENCE";
 constexpr const char* kInputDigest = "INPUT_DIGEST";
+constexpr const char* kSearchedHeights = "SEARCHED_HEIGHTS";
 constexpr const char* kSoftware = "TIFFTAG_SOFTWARE";
 
 void put_item(GDALDataset& dataset, const char* key, const std::string& value) {
@@ -41,6 +42,7 @@ void put_labels(GDALDataset& dataset, const Labels& labels) {
   put_item(dataset, kContent, labels.content);
   put_item(dataset, kVerticalReference, labels.vertical_reference);
   put_item(dataset, kInputDigest, labels.input_digest);
+  put_item(dataset, kSearchedHeights, labels.searched_heights);
   put_item(dataset, kSoftware, labels.software);
   if (dataset.GetRasterCount() != 1) return;  // the bands of a colour image say by themselves what they are
   GDALRasterBand& band = *dataset.GetRasterBand(1);
@@ -56,7 +58,8 @@ Labels labels_of(GDALDataset& dataset) {
           .units = measures ? band.GetUnitType() : "",
           .vertical_reference = item_of(dataset, kVerticalReference),
           .software = item_of(dataset, kSoftware),
-          .input_digest = item_of(dataset, kInputDigest)};
+          .input_digest = item_of(dataset, kInputDigest),
+          .searched_heights = item_of(dataset, kSearchedHeights)};
 }
 
 std::optional<GeoReference> georeference_of(GDALDataset& dataset, std::string& problem) {
