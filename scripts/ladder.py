@@ -20,8 +20,8 @@ BEGIN, END = "<!-- ladder: begin -->\n", "<!-- ladder: end -->\n"
 CLASSIC = {
     "normalization_radius_px": 0, "normalization_tolerance": 0, "window_level_max": 0, "coarse_levels": 0,
     "aggregation": '"better-half"', "smoothing": '"none"', "few_views_penalty": 0.0, "max_cost_to_mean": 1.0,
-    "follow_slopes": "false", "edge_contrast": 0.0, "visibility_passes": 0, "close_gap_cells": 0, "fill": "false", "edge_passes": 0,
-    "compensate_exposure": "false",
+    "follow_slopes": "false", "edge_contrast": 0.0, "visibility_passes": 0, "close_gap_cells": 0, "fill": "false",
+    "edge_passes": 0, "compensate_exposure": "false",
 }
 # Each rung keeps what the ones above it changed.
 RUNGS = [

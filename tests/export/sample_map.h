@@ -69,7 +69,7 @@ class SampleMap : public testing::Test {
         keys.push_back({0, kFirstX + x, kFirstY + y});
         store.write(keys.back(), tile(keys.back()), keys.back().name());
       }
-    tiles::rebuild_parents(store, keys);
+    tiles::update_parents(store);
   }
 
   // metres east and north of kCorner
