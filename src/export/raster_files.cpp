@@ -93,7 +93,7 @@ int write_geotiff_tiles(const MapRaster& map, const TileSize& size, const Destin
       written += write_tile(map, tile, to.result() / name);
       if (progress && !progress(static_cast<double>(++done) / total)) throw raster::Stopped{};
     }
-  write_labels_json(map, {{"tiles", std::to_string(written)}}, to.result() / kLabelsFile);
+  write_labels_json(map, {{"TILES", std::to_string(written)}}, to.result() / kLabelsFile);
   return written;
 }
 
