@@ -27,12 +27,12 @@ double color_difference(const MeanColor& a, const MeanColor& b) {
 }
 
 PointColors point_colors(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z,
-                         double largest_difference) {
+                         double largest_difference, Vec2d offset_m) {
   const Vec2d cell = problem.grid.cell_center(column, row);
   Channels seen;
   PointColors out;
   for (const View& view : problem.views) {
-    const std::optional<Vec2d> pixel = view.camera.project({cell.x, cell.y, z});
+    const std::optional<Vec2d> pixel = view.camera.project({cell.x + offset_m.x, cell.y + offset_m.y, z});
     if (!pixel || !view.camera.shows(*pixel)) continue;
     if (!surface.sees(view.camera.pose().center, column, row, z)) {
       ++out.hidden_from;

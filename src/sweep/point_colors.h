@@ -21,8 +21,9 @@ struct PointColors {
   double spread = 0;    // mean difference to the median, each view's no larger than `largest_difference`
 };
 
-// `z` in the grid's frame. The surface's own height in this cell hides nothing.
+// Of the place `offset_m` (east, north) from the middle of a cell, at height `z`, in the grid's frame; whether a view
+// sees it is asked of the middle. The surface's own height in this cell hides nothing.
 PointColors point_colors(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z,
-                         double largest_difference);
+                         double largest_difference, Vec2d offset_m = {0, 0});
 
 }  // namespace skysweep::sweep

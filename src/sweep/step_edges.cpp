@@ -16,8 +16,12 @@
 namespace skysweep::sweep {
 namespace {
 
-constexpr double kStepPlanes = 3;  // between neighbouring cells: more is a step
-constexpr int kMostSurfaces = 4;   // that a cell may choose from
+constexpr double kStepPlanes = 3;    // between neighbouring cells: more is a step,
+constexpr double kSteepestFace = 2;  // if it is also steeper than a quarry's face, metres a metre
+double smallest_step(const SweepProblem& problem) {
+  return std::max(kStepPlanes * problem.dz_m, kSteepestFace * problem.grid.cell_m);
+}
+constexpr int kMostSurfaces = 4;  // that a cell may choose from
 // All differences of colour are counted in units of the one that is usual where the surface is known. Beyond this,
 // colours are of different things, and how far apart they are says nothing.
 constexpr double kLargestDifference = 5;
@@ -27,6 +31,8 @@ constexpr double kFewWitnessesPenalty = 2;  // divided by the number of views th
 // Neighbours whose colours differ by so much belong together half as much, and never less than a share.
 constexpr double kContrast = 2.5, kLeastWeight = 0.2;
 constexpr double kDiagonalWeight = 0.7;
+// A surface is looked at so far from the middle of the cell, cells, towards its side: pixels on an edge are mixed.
+constexpr double kInwards = 0.45;
 constexpr int kRoundsOfChoice = 4;
 // Where so large a share of the cells within so many columns and rows lies at steps, as in the crowns of trees, no step
 // is an edge.
@@ -129,7 +135,7 @@ class EdgePass {
  private:
   bool is_step(int column, int row, int x, int y) const {
     const Array2d<float>& z = heights_.height_m;
-    return z.contains(x, y) && std::abs(z(column, row) - z(x, y)) > kStepPlanes * problem_.dz_m;
+    return z.contains(x, y) && std::abs(z(column, row) - z(x, y)) > smallest_step(problem_);
   }
 
   Array2d<std::uint8_t> near_steps(const Array2d<std::uint8_t>& active) const {
@@ -196,6 +202,19 @@ class EdgePass {
     cells_.push_back(cell);
   }
 
+  // From the middle of a cell towards its neighbours on a surface, metres east and north.
+  Vec2d inwards(const EdgeCell& cell, const Surface& s) const {
+    Vec2d sum;
+    for (const Direction d : kDirections) {
+      const int x = cell.column + d.x, y = cell.row + d.y;
+      if (!heights_.height_m.contains(x, y)) continue;
+      if (!(std::abs(heights_.height_m(x, y) - s.z) <= alike_m_ + problem_.grid.cell_m)) continue;
+      sum = sum + (1 / std::hypot(d.x, d.y)) * Vec2d{double(d.x), double(-d.y)};
+    }
+    const double length = norm(sum);
+    return length > 0.5 ? kInwards * problem_.grid.cell_m / length * sum : Vec2d{};
+  }
+
   void judge() {
     const SurfaceVisibility visibility(problem_.grid, heights_.height_m, kOcclusionTolerancePlanes * problem_.dz_m);
     const double hidden_cost = problem_.options.edge_hidden_cost;
@@ -206,8 +225,8 @@ class EdgePass {
         EdgeCell& cell = cells_[i];
         for (int k = 0; k < cell.count; ++k) {
           Surface& s = cell.of[k];
-          const PointColors seen =
-              point_colors(problem_, visibility, cell.column, cell.row, s.z, kLargestDifference * usual_difference_);
+          const PointColors seen = point_colors(problem_, visibility, cell.column, cell.row, s.z,
+                                                kLargestDifference * usual_difference_, inwards(cell, s));
           s.color = seen.median;
           s.seen_by = seen.seen_by;
           const int n = seen.seen_by;
