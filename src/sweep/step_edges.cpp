@@ -17,9 +17,9 @@ namespace skysweep::sweep {
 namespace {
 
 constexpr double kStepPlanes = 3;    // between neighbouring cells: more is a step,
-constexpr double kSteepestFace = 2;  // if it is also steeper than a quarry's face, metres a metre
+constexpr double kSteepestRoof = 2;  // if it is also steeper, metres a metre, than roofs are
 double smallest_step(const SweepProblem& problem) {
-  return std::max(kStepPlanes * problem.dz_m, kSteepestFace * problem.grid.cell_m);
+  return std::max(kStepPlanes * problem.dz_m, kSteepestRoof * problem.grid.cell_m);
 }
 constexpr int kMostSurfaces = 4;  // that a cell may choose from
 // All differences of colour are counted in units of the one that is usual where the surface is known. Beyond this,
@@ -31,6 +31,11 @@ constexpr double kFewWitnessesPenalty = 2;  // divided by the number of views th
 // Neighbours whose colours differ by so much belong together half as much, and never less than a share.
 constexpr double kContrast = 2.5, kLeastWeight = 0.2;
 constexpr double kDiagonalWeight = 0.7;
+// A difference of so many cells' height is a step in full, a smaller one in part: a steep face made of many small steps
+// costs what one large step would, and the colours decide.
+constexpr double kFullStepCells = 8;
+// A gap is closed where the views agree so well, in units of the usual difference.
+constexpr double kAgreement = 1.5;
 // A surface is looked at so far from the middle of the cell, cells, towards its side: pixels on an edge are mixed.
 constexpr double kInwards = 0.45;
 constexpr int kRoundsOfChoice = 4;
@@ -121,6 +126,7 @@ class EdgePass {
         executor_(executor),
         heights_(heights),
         alike_m_(0.5 * kStepPlanes * problem.dz_m),
+        searched_(problem.all_planes()),
         cell_at_(problem.grid.width, problem.grid.height, -1) {}
 
   // `active`: the cells to look at; afterwards those around which something changed.
@@ -169,10 +175,15 @@ class EdgePass {
           const float rise = (height - z(beyond_x, beyond_y)) / 2;                                   // a cell
           if (std::abs(rise) < problem_.grid.cell_m) height += static_cast<float>(distance) * rise;  // not of NaN
         }
-        cell.add(height, heights_.sigma_m(x, y), alike_m_);
+        if (is_searched(height)) cell.add(height, heights_.sigma_m(x, y), alike_m_);
       }
     }
     return cell;
+  }
+
+  // Surfaces that rise out of what was searched are no surfaces.
+  bool is_searched(double z) const {
+    return z >= (searched_.first - 0.5) * problem_.dz_m && z <= (searched_.last + 0.5) * problem_.dz_m;
   }
 
   void gather(const Array2d<std::uint8_t>& near) {
@@ -247,8 +258,10 @@ class EdgePass {
       if (!cell_at_.contains(x, y)) continue;
       const EdgeCell* other = cell_at_(x, y) >= 0 ? &cells_[cell_at_(x, y)] : nullptr;
       const float z = other ? other->surface().z : heights_.height_m(x, y);
-      if (!(std::abs(z - s.z) > alike_m_ + problem_.grid.cell_m)) continue;  // of NaN, too
+      const double step_m = std::abs(z - s.z);
+      if (!(step_m > alike_m_ + problem_.grid.cell_m)) continue;  // of NaN, too
       double weight = d.x != 0 && d.y != 0 ? kDiagonalWeight : 1;
+      weight *= std::min(1.0, step_m / (kFullStepCells * problem_.grid.cell_m));
       if (other) {
         const double contrast = color_difference(other->surface().color, s.color) / (kContrast * usual_difference_);
         weight *= std::max(kLeastWeight, 1 / (1 + contrast * contrast));
@@ -282,7 +295,8 @@ class EdgePass {
     for (const EdgeCell& cell : cells_) {
       const float before = heights_.height_m(cell.column, cell.row);
       const Surface& s = cell.surface();
-      if (std::isnan(before) ? s.seen_by < problem_.options.min_views : cell.chosen == 0) continue;
+      const bool is_seen = s.seen_by >= problem_.options.min_views && s.cost <= kAgreement;
+      if (std::isnan(before) ? !is_seen : cell.chosen == 0) continue;
       changed(cell.column, cell.row) = 1;
     }
     const SurfaceFit surface{problem_.grid.cell_m, alike_m_};
@@ -292,7 +306,8 @@ class EdgePass {
         if (!changed(column, row)) continue;
         const int i = cell_at_(column, row);
         const double rough = cells_[i].surface().z;
-        z[i] = static_cast<float>(fitted_height(heights_, changed, surface, column, row, rough).value_or(rough));
+        const double fitted = fitted_height(heights_, changed, surface, column, row, rough).value_or(rough);
+        z[i] = static_cast<float>(is_searched(fitted) ? fitted : rough);
       }
     });
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -309,6 +324,7 @@ class EdgePass {
   Executor& executor_;
   Heights& heights_;
   double alike_m_;  // heights that differ by less are of the same surface
+  PlaneRange searched_;
   Array2d<int> cell_at_;
   std::vector<EdgeCell> cells_;
 };

@@ -14,10 +14,11 @@ namespace skysweep::sweep {
 //   sum over cells of C(z) + edge_penalty sum over pairs of neighbours on different surfaces of w,
 // where z is one of the heights that the surfaces up to a cell farther away have in the cell, C(z) the mean difference
 // between the colours of the views that see it (a view that the surface hides it from counts edge_hidden_cost), in
-// units of what is usual in the tile, and w falls where the colours of the two cells differ. By iterated conditional
-// modes (Besag 1986), edge_passes times, each with the visibility that the one before left. Where nearly everything is
-// a step, as in trees, nothing is an edge. Heights that change are those of a plane through their surface; other cells
-// stay as they are, bit for bit. A gap whose best surface fewer than min_views views see stays one.
+// units of what is usual in the tile, and w falls where the colours of the two cells differ, and where their heights
+// hardly do. By iterated conditional modes (Besag 1986), edge_passes times, each with the visibility that the one
+// before left. Where nearly everything is a step, as in trees, nothing is an edge. Heights that change are those of a
+// plane through their surface; other cells stay as they are, bit for bit. A gap whose best surface fewer than min_views
+// views see, or see alike, stays one.
 void settle_edges(const SweepProblem& problem, Executor& executor, Heights& heights);
 
 }  // namespace skysweep::sweep
