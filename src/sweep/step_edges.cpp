@@ -35,7 +35,7 @@ constexpr double kDiagonalWeight = 0.7;
 // costs what one large step would, and the colours decide.
 constexpr double kFullStepCells = 8;
 // A gap is closed where the views agree so well, in units of the usual difference.
-constexpr double kAgreement = 1.5;
+constexpr double kAgreement = 2.5;
 // A surface is looked at so far from the middle of the cell, cells, towards its side: pixels on an edge are mixed.
 constexpr double kInwards = 0.45;
 constexpr int kRoundsOfChoice = 4;
@@ -53,7 +53,8 @@ constexpr double kAllWeights = 4 + 4 * kDiagonalWeight;
 // A surface that may be the one in a cell: its height there, and what speaks for it.
 struct Surface {
   float z = 0, sigma = 0;
-  float cost = 0;  // in units of the usual difference
+  float cost = 0;        // in units of the usual difference, as is
+  float difference = 0;  // how much those views differ that see it
   MeanColor color{};
   int seen_by = 0;
 };
@@ -244,6 +245,7 @@ class EdgePass {
           s.cost = static_cast<float>(hidden_cost);
           if (n < kFewestWitnesses) continue;
           const double own = seen.spread / usual_difference_ * n / (n - 1) + kFewWitnessesPenalty / n;
+          s.difference = static_cast<float>(own);
           s.cost = static_cast<float>((n * own + seen.hidden_from * hidden_cost) / (n + seen.hidden_from));
         }
       }
@@ -295,7 +297,7 @@ class EdgePass {
     for (const EdgeCell& cell : cells_) {
       const float before = heights_.height_m(cell.column, cell.row);
       const Surface& s = cell.surface();
-      const bool is_seen = s.seen_by >= problem_.options.min_views && s.cost <= kAgreement;
+      const bool is_seen = s.seen_by >= problem_.options.min_views && s.difference <= kAgreement;
       if (std::isnan(before) ? !is_seen : cell.chosen == 0) continue;
       changed(cell.column, cell.row) = 1;
     }

@@ -124,6 +124,20 @@ TEST(StepEdges, what_too_few_views_see_stays_a_gap) {
   for (int row = 20; row < 40; ++row) EXPECT_TRUE(std::isnan(heights.height_m(47, row))) << row;
 }
 
+TEST(StepEdges, what_views_see_differently_at_every_height_stays_a_gap) {
+  Heights heights = house().heights(0);
+  for (int row = 0; row < 13; ++row)
+    for (int column = 8; column < 24; ++column)  // open ground, and on both sides of the gap heights that are wrong
+      heights.height_m(column, row) = column == 15 || column == 16 ? kNone : column < 14 ? 2.0f : 1.0f;
+  SweepOptions options;
+  options.edge_passes = 1;  // the next would bring the ground in
+  const Heights after = settled(heights, options);
+  int gaps = 0, open = 0;
+  for (int row = 0; row < 9; ++row)
+    for (int column = 15; column < 17; ++column) ++gaps, open += std::isnan(after.height_m(column, row));
+  EXPECT_GE(open, gaps / 2) << "of " << gaps;
+}
+
 TEST(StepEdges, a_roof_that_slopes_goes_on_sloping_to_its_edge) {
   const House world;
   Heights heights = world.heights(0);
