@@ -16,26 +16,9 @@
 
 namespace skysweep::sweep {
 
-Search search(const SweepProblem& problem, Backend backend, Executor& executor) {
-  Search found;
-  if (problem.options.coarse_levels == 0) {
-    found.problem = problem;
-    found.samples = sample_count(problem);
-    found.matches = match_planes(problem, backend, executor);
-    return found;
-  }
-  NarrowedSearch narrowed = narrow_search(problem, backend, executor, found.samples);
-  found.problem = std::move(narrowed.problem);
-  found.samples += sample_count(found.problem);
-  found.matches = match_planes(found.problem, backend, executor);
-  found.searched_mean = found.matches.mean_cost;
-  found.all_mean = std::move(narrowed.mean_cost);
-  // On weak texture the coarse grid's mean has less noise than any cost here, right or wrong.
-  for (std::size_t i = 0; i < found.all_mean.size(); ++i)
-    found.matches.mean_cost.data()[i] = std::max(found.searched_mean.data()[i], found.all_mean.data()[i]);
-  return found;
-}
+namespace {
 
+// Heights of the search, where something distinguishes them.
 Heights distinct_heights(const SweepProblem& problem, const Search& found, Executor& executor) {
   Heights heights = heights_from_matches(problem, found.matches);
   const auto keep = [&](const SweepProblem& planes, const Array2d<float>& mean_cost, double mean_error, Heights& kept) {
@@ -60,18 +43,52 @@ Heights distinct_heights(const SweepProblem& problem, const Search& found, Execu
   return heights;
 }
 
+}  // namespace
+
+Search search(const SweepProblem& problem, Backend backend, Executor& executor) {
+  Search found;
+  if (problem.options.coarse_levels == 0) {
+    found.problem = problem;
+    found.samples = sample_count(problem);
+    found.matches = match_planes(problem, backend, executor);
+    return found;
+  }
+  NarrowedSearch narrowed = narrow_search(problem, backend, executor, found.samples);
+  found.problem = std::move(narrowed.problem);
+  found.samples += sample_count(found.problem);
+  found.matches = match_planes(found.problem, backend, executor);
+  found.searched_mean = found.matches.mean_cost;
+  found.all_mean = std::move(narrowed.mean_cost);
+  // On weak texture the coarse grid's mean has less noise than any cost here, right or wrong.
+  for (std::size_t i = 0; i < found.all_mean.size(); ++i)
+    found.matches.mean_cost.data()[i] = std::max(found.searched_mean.data()[i], found.all_mean.data()[i]);
+  return found;
+}
+
+SweptSurface surface_of(const SweepProblem& problem, const Search& found, Executor& executor) {
+  SweptSurface out;
+  out.heights = distinct_heights(problem, found, executor);
+  out.matched_height_m = out.heights.height_m;
+  drop_speckles(problem, out.heights);
+  if (problem.options.edge_passes > 0) {
+    set_sigma(problem, found.matches, out.heights);  // of what edges are settled from, not of what they become
+    settle_edges(problem, executor, out.heights);
+  }
+  out.signs = sigma_signs(problem, found.matches, out.heights.height_m);
+  out.heights.sigma_m = height_sigma(out.heights.height_m, out.signs, problem.dz_m);
+  out.filled = fill_hidden_cells(problem, executor, out.heights);
+  return out;
+}
+
 SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor) {
   problem.check();
   SweepResult result;
   const Search found = search(problem, backend, executor);
   result.samples = found.samples;
-  Heights heights = distinct_heights(problem, found, executor);
-  drop_speckles(problem, heights);
-  set_sigma(problem, found.matches, heights);
-  settle_edges(problem, executor, heights);
-  result.filled = fill_hidden_cells(problem, executor, heights);
-  result.height_m = std::move(heights.height_m);
-  result.sigma_m = std::move(heights.sigma_m);
+  SweptSurface surface = surface_of(problem, found, executor);
+  result.height_m = std::move(surface.heights.height_m);
+  result.sigma_m = std::move(surface.heights.sigma_m);
+  result.filled = std::move(surface.filled);
   colorize(problem, executor, result);
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "sweep/backend.h"
 #include "sweep/heights.h"
+#include "sweep/sigma_signs.h"
 #include "sweep/sweep_problem.h"
 #include "sweep/sweep_result.h"
 
@@ -21,8 +22,15 @@ struct Search {
 // The search alone, from coarse to fine if options.coarse_levels says so, else everywhere at once.
 Search search(const SweepProblem& problem, Backend backend, Executor& executor);
 
-// Heights of the search, where something distinguishes them.
-Heights distinct_heights(const SweepProblem& problem, const Search& found, Executor& executor);
+// A surface, and what it was made from.
+struct SweptSurface {
+  Array2d<float> matched_height_m;  // where something distinguishes them; before speckles are taken back
+  SigmaSigns signs;                 // of the heights before gaps are filled
+  Heights heights;
+  Array2d<std::uint8_t> filled;  // see SweepResult
+};
+
+SweptSurface surface_of(const SweepProblem& problem, const Search& found, Executor& executor);
 
 SweepResult plane_sweep(const SweepProblem& problem, Backend backend, Executor& executor);
 

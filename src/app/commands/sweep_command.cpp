@@ -13,13 +13,8 @@
 #include "pipeline/tile_job.h"
 #include "raster/atomic_file.h"
 #include "raster/crs.h"
-#include "sweep/filling.h"
-#include "sweep/height_sigma.h"
-#include "sweep/heights.h"
 #include "sweep/orthophoto.h"
-#include "sweep/photometric_evidence.h"
 #include "sweep/plane_sweep.h"
-#include "sweep/speckles.h"
 
 namespace skysweep::app {
 namespace {
@@ -104,14 +99,11 @@ int dump_tile(const SweepOptions& options) {
   const sweep::SweepProblem& problem = tile.problem;
   const sweep::Search found = sweep::search(problem, settings.backend, executor);
   const sweep::MatchResult& matches = found.matches;
-  sweep::Heights heights = sweep::distinct_heights(problem, found, executor);
-  const Array2d<float> matched_height_m = heights.height_m;
-  sweep::drop_speckles(problem, heights);
-  const sweep::SigmaSigns signs = sweep::sigma_signs(problem, matches, heights.height_m);
-  heights.sigma_m = sweep::height_sigma(heights.height_m, signs, problem.dz_m);
+  const sweep::SweptSurface surface = sweep::surface_of(problem, found, executor);
+  const sweep::Heights& heights = surface.heights;
   sweep::SweepResult result;
-  result.filled = sweep::fill_hidden_cells(problem, executor, heights);
   result.height_m = heights.height_m;
+  result.filled = surface.filled;
   sweep::colorize(problem, executor, result);
 
   const auto write_coarse = [&](const raster::GeoReference& fine) {
@@ -136,11 +128,11 @@ int dump_tile(const SweepOptions& options) {
   out.write("rival_plane", converted<float>(matches.rival_plane, [](int k) { return static_cast<float>(k); }),
             "plane of the next best minimum", "dz");
   out.write("rival_excess", matches.rival_excess, "how much more that costs", "grey level");
-  out.write("matched_height", matched_height_m, "surface height before speckles are taken back", "metre", true);
+  out.write("matched_height", surface.matched_height_m, "surface height before speckles are taken back", "metre", true);
   out.write("filled", result.filled, "1 where the height is that of the surroundings", "");
   out.write("height", heights.height_m, "surface height", "metre", true);
   out.write("sigma", heights.sigma_m, "standard deviation of the height", "metre");
-  write_signs(signs, out);
+  write_signs(surface.signs, out);
   out.write("color", result.color, "orthophoto", "");
   out.write("color_view",
             converted<std::uint8_t>(result.color_view, [](std::int8_t v) { return static_cast<std::uint8_t>(v + 1); }),
