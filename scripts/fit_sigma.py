@@ -27,15 +27,18 @@ TRAINING = ["dense_town_small:balanced", "dense_town_small:fast", "gable_roofs:b
 TESTS = ["small_town:balanced", "infrastructure:balanced"]
 SIGNS = ["height_per_pixel", "step_5", "step_17", "offset", "excess_3", "excess_9", "undecided", "bend_9", "cost_9",
          "cost_17"]
+EDGE_SIGNS = ["edge_margin", "edge_difference"]  # NaN where the colours at a step were not asked
 CLASSES = {1: "ground", 2: "roof", 4: "tree"}
 BEST = 0.07  # kBestPixels of sigma_parameters.h
 FEWEST_CELLS = 150  # of a class that is judged alone
 TRAINED_CELLS = 12000  # of each scene, every n-th
 SEEDS = (1, 2)
 
-# Where the search begins, in the order of sigma_parameters.h: level, step, offset, excess, bend, cost | level, cost, undecided | level, cost, undecided.
-START = [-0.512, 0.427, 0.165, -0.348, -0.454, -0.753, 0.863, 2.774, 1.046, -1.008, 0.772, 0.41]
-STEP = [0.1, 0.05, 0.03, 0.1, 0.08, 0.15, 0.2, 0.5, 0.4, 0.15, 0.3, 0.5]
+# Where the search begins, in the order of sigma_parameters.h: level, step, offset, excess, bend, cost | level, cost, undecided | level, cost, undecided |
+# at edges: level, difference, margin | level, difference, undecided, excess | level.
+START = [-0.538, 0.416, 0.176, -0.343, -0.446, -0.833, 0.861, 2.78, 0.984, -0.981, 0.751, 0.371,
+         -0.2, -0.2, -0.4, 0.55, 2.4, 0, 2, -0.4]
+STEP = [0.1, 0.05, 0.03, 0.1, 0.08, 0.15, 0.2, 0.5, 0.4, 0.15, 0.3, 0.5, 0.15, 0.15, 0.08, 0.4, 0.4, 0.5, 0.3, 0.2]
 
 # Where coverage should lie, of one sigma and of 1.96: overall, and in each part; narrower than the bars of the tests.
 ALL_68, ALL_95 = (0.67, 0.73), (0.94, 0.97)
@@ -102,6 +105,12 @@ def cells_of(flight, out):
         dsm = on_grid(truth, truth_grid, height.shape, grid, np.nan)
         known &= np.isfinite(height) & np.isfinite(dsm) & (np.abs(dsm) < 1e30) & (read(tile / "filled.tif")[0] == 0)
         layers = {s: read(tile / f"{s}.tif")[0][known].astype(float) for s in SIGNS}
+        for s in EDGE_SIGNS:
+            if not (tile / f"{s}.tif").exists():  # nobody looked
+                layers[s] = np.full(known.sum(), np.nan)
+                continue
+            values = read(tile / f"{s}.tif")[0][known].astype(float)
+            layers[s] = np.where(np.abs(values) < 1e30, values, np.nan)
         layers["error"] = np.abs(height[known].astype(float) - dsm[known])
         layers["class"] = on_grid(classes, truth_grid, height.shape, grid, 0)[known]
         parts.append(layers)
@@ -115,6 +124,9 @@ def cells_of(flight, out):
                                np.log(np.maximum(c["cost_9"], 1e-3) / 3)]),
         "excess": np.log(0.2 + c["excess_3"]),
         "doubtful": np.stack([np.ones(len(unit)), np.log(np.maximum(c["cost_17"], 1e-3) / 3), c["undecided"]]),
+        "at_edge": np.isfinite(c["edge_margin"]), "margin": c["edge_margin"],
+        "edge": np.stack([np.ones(len(unit)), np.log(np.maximum(c["edge_difference"], 0.3)),
+                          np.clip(c["edge_margin"], 0, 4), c["undecided"]]),
         "step": np.log(np.maximum(1, c["step_17"] / unit)), "unit": unit,
     }
 
@@ -128,7 +140,10 @@ def sigma(cells, p):
     sure = np.maximum(np.log(BEST), p[0:6] @ cells["doubtless"])
     is_doubtful = cells["excess"] < p[6:9] @ cells["doubtful"]
     doubtful = np.maximum(sure, p[9:12] @ cells["doubtful"] + cells["step"])
-    return np.exp(np.where(is_doubtful, doubtful, sure))
+    of_edge = np.maximum(np.log(BEST), p[12:15] @ cells["edge"][0:3])
+    is_either = (cells["margin"] < p[15:18] @ cells["edge"][[0, 1, 3]]) & (cells["excess"] < p[18])
+    of_edge = np.where(is_either, np.maximum(of_edge, p[19] + cells["step"]), of_edge)
+    return np.exp(np.where(cells["at_edge"], of_edge, np.where(is_doubtful, doubtful, sure)))
 
 
 def coverage(cells, p):
@@ -188,7 +203,7 @@ def main():
     arguments.add_argument("--work", type=pathlib.Path)
     arguments.add_argument("--steps", type=int, default=600)
     arguments.add_argument("--test", nargs="*", default=TESTS)
-    arguments.add_argument("--parameters", type=float, nargs=12, help="show what these cover, and fit nothing")
+    arguments.add_argument("--parameters", type=float, nargs=20, help="show what these cover, and fit nothing")
     options = arguments.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
         work = options.work or pathlib.Path(temporary)
@@ -200,7 +215,8 @@ def main():
             least, p = min((evolve(sample, options.steps, seed) for seed in SEEDS), key=lambda found: found[0])
             p = np.round(p, 3)
             print(f"loss {least:.3f}")
-            for name, part in (("kSigmaOfDoubtless", p[0:6]), ("kDoubt", p[6:9]), ("kSigmaOfDoubtful", p[9:12])):
+            for name, part in (("kSigmaOfDoubtless", p[0:6]), ("kDoubt", p[6:9]), ("kSigmaOfDoubtful", p[9:12]),
+                               ("kSigmaOfEdges", p[12:15]), ("kEdgeDoubt", p[15:19]), ("kEdgeStep", p[19:20])):
                 print(f"{name} = {{{', '.join(f'{x:g}' for x in part)}}};")
         for case, cells in training.items():
             print_coverage(case, cells, p)

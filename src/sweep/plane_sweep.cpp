@@ -70,11 +70,12 @@ SweptSurface surface_of(const SweepProblem& problem, const Search& found, Execut
   out.heights = distinct_heights(problem, found, executor);
   out.matched_height_m = out.heights.height_m;
   drop_speckles(problem, out.heights);
+  EdgeEvidence edges;
   if (problem.options.edge_passes > 0) {
     set_sigma(problem, found.matches, out.heights);  // of what edges are settled from, not of what they become
-    settle_edges(problem, executor, out.heights);
+    edges = settle_edges(problem, executor, out.heights);
   }
-  out.signs = sigma_signs(problem, found.matches, out.heights.height_m);
+  out.signs = sigma_signs(problem, found.matches, out.heights.height_m, std::move(edges));
   out.heights.sigma_m = height_sigma(out.heights.height_m, out.signs, problem.dz_m);
   out.filled = fill_hidden_cells(problem, executor, out.heights);
   return out;

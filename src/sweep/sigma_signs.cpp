@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sweep/ray_geometry.h"
 #include "sweep/window_statistics.h"
@@ -46,7 +47,8 @@ Array2d<float> offset_from_mean(const Array2d<float>& height_m) {
 
 }  // namespace
 
-SigmaSigns sigma_signs(const SweepProblem& problem, const MatchResult& matches, const Array2d<float>& height_m) {
+SigmaSigns sigma_signs(const SweepProblem& problem, const MatchResult& matches, const Array2d<float>& height_m,
+                       EdgeEvidence edges) {
   const Array2d<float> excess = rival_excess(problem, matches, height_m);
   const auto undecided = converted(excess, [](float e) { return e < kUndecidedExcess ? 1.0f : 0.0f; });
   const auto cost = converted(matches.cost, [](float c) { return std::isfinite(c) ? c : kNaN; });
@@ -60,7 +62,8 @@ SigmaSigns sigma_signs(const SweepProblem& problem, const MatchResult& matches, 
           window_mean(undecided, 8),
           window_mean(bend, 4),
           window_mean(cost, 4),
-          window_mean(cost, 8)};
+          window_mean(cost, 8),
+          std::move(edges)};
 }
 
 }  // namespace skysweep::sweep

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/array2d.h"
+#include "sweep/edge_evidence.h"
 #include "sweep/heights.h"
 #include "sweep/match_result.h"
 #include "sweep/sweep_problem.h"
@@ -21,12 +22,14 @@ struct SigmaSigns {
   Array2d<float> bend_9;              // mean bend of the cost curves at their best planes, 9 x 9, grey levels
   Array2d<float> cost_9;              // mean cost of the best planes, 9 x 9, grey levels
   Array2d<float> cost_17;             // 17 x 17
+  EdgeEvidence edges;
 };
 
 // An excess counts as at most this, and as 0 in cells without a height; without smoothing nobody looks for rivals, and
 // it is 0 everywhere.
 constexpr float kLargestExcess = 24, kUndecidedExcess = 4;
 
-SigmaSigns sigma_signs(const SweepProblem& problem, const MatchResult& matches, const Array2d<float>& height_m);
+SigmaSigns sigma_signs(const SweepProblem& problem, const MatchResult& matches, const Array2d<float>& height_m,
+                       EdgeEvidence edges = {});
 
 }  // namespace skysweep::sweep

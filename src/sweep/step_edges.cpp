@@ -121,11 +121,13 @@ void drop_rubble(const Array2d<std::uint8_t>& at_steps, Array2d<std::uint8_t>& m
 class EdgePass {
  public:
   // `usual_difference`: of the colours in which views show one place, grey levels.
-  EdgePass(const SweepProblem& problem, double usual_difference, Executor& executor, Heights& heights)
+  EdgePass(const SweepProblem& problem, double usual_difference, Executor& executor, Heights& heights,
+           EdgeEvidence& evidence)
       : problem_(problem),
         usual_difference_(usual_difference),
         executor_(executor),
         heights_(heights),
+        evidence_(evidence),
         alike_m_(0.5 * kStepPlanes * problem.dz_m),
         searched_(problem.all_planes()),
         cell_at_(problem.grid.width, problem.grid.height, -1) {}
@@ -136,6 +138,7 @@ class EdgePass {
     judge();
     for (int round = 0; round < kRoundsOfChoice; ++round)
       for (int parity = 0; parity < 4; ++parity) choose(parity);
+    weigh();
     active = settle();
   }
 
@@ -273,6 +276,10 @@ class EdgePass {
     return sum / kAllWeights;
   }
 
+  double total_cost(const EdgeCell& cell, const Surface& s) const {
+    return s.cost + problem_.options.edge_penalty * disagreement(cell, s);
+  }
+
   // All cells of one of four colours of a chequerboard: none is another's neighbour.
   void choose(int parity) {
     executor_.parallel_for(problem_.grid.height, [&](int row) {
@@ -283,12 +290,23 @@ class EdgePass {
         int best = 0;
         double least = std::numeric_limits<double>::infinity();
         for (int i = 0; i < cell.count; ++i) {
-          const double cost = cell.of[i].cost + problem_.options.edge_penalty * disagreement(cell, cell.of[i]);
+          const double cost = total_cost(cell, cell.of[i]);
           if (cost < least) least = cost, best = i;
         }
         cell.chosen = best;
       }
     });
+  }
+
+  void weigh() {
+    for (const EdgeCell& cell : cells_) {
+      if (cell.count < 2) continue;
+      double next = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < cell.count; ++i)
+        if (i != cell.chosen) next = std::min(next, total_cost(cell, cell.of[i]));
+      evidence_.margin(cell.column, cell.row) = static_cast<float>(next - total_cost(cell, cell.surface()));
+      evidence_.difference(cell.column, cell.row) = cell.surface().difference;
+    }
   }
 
   // Writes the new heights; returns the cells around them.
@@ -325,6 +343,7 @@ class EdgePass {
   double usual_difference_;
   Executor& executor_;
   Heights& heights_;
+  EdgeEvidence& evidence_;
   double alike_m_;  // heights that differ by less are of the same surface
   PlaneRange searched_;
   Array2d<int> cell_at_;
@@ -365,13 +384,17 @@ std::optional<double> usual_difference(const SweepProblem& problem, const Height
 
 }  // namespace
 
-void settle_edges(const SweepProblem& problem, Executor& executor, Heights& heights) {
-  if (problem.options.edge_passes == 0) return;
+EdgeEvidence settle_edges(const SweepProblem& problem, Executor& executor, Heights& heights) {
+  EdgeEvidence evidence;
+  if (problem.options.edge_passes == 0) return evidence;
   const std::optional<double> usual = usual_difference(problem, heights, executor);
-  if (!usual) return;
+  if (!usual) return evidence;
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  evidence.margin = evidence.difference = Array2d<float>(problem.grid.width, problem.grid.height, kNone);
   Array2d<std::uint8_t> active(problem.grid.width, problem.grid.height, 1);
   for (int pass = 0; pass < problem.options.edge_passes; ++pass)
-    EdgePass(problem, *usual, executor, heights).run(active);
+    EdgePass(problem, *usual, executor, heights, evidence).run(active);
+  return evidence;
 }
 
 }  // namespace skysweep::sweep

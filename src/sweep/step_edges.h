@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/executor.h"
+#include "sweep/edge_evidence.h"
 #include "sweep/heights.h"
 #include "sweep/sweep_problem.h"
 
@@ -19,6 +20,6 @@ namespace skysweep::sweep {
 // before left. Where nearly everything is a step, as in trees, nothing is an edge. Heights that change are those of a
 // plane through their surface; other cells stay as they are, bit for bit. A gap whose best surface fewer than min_views
 // views see, or see alike, stays one.
-void settle_edges(const SweepProblem& problem, Executor& executor, Heights& heights);
+EdgeEvidence settle_edges(const SweepProblem& problem, Executor& executor, Heights& heights);
 
 }  // namespace skysweep::sweep

@@ -18,7 +18,8 @@ constexpr float kUnit = 0.06f, kPlaneStep = 0.04f;
 // One cell of smooth, textured ground, of which the costs are sure.
 SigmaSigns sure_signs() {
   const auto cell = [](float v) { return Array2d<float>(1, 1, v); };
-  return {cell(kUnit), cell(0.01f), cell(0.03f), cell(0.002f), cell(14), cell(14), cell(0), cell(3), cell(3), cell(3)};
+  return {cell(kUnit), cell(0.01f), cell(0.03f), cell(0.002f), cell(14), cell(14),
+          cell(0),     cell(3),     cell(3),     cell(3),      {}};
 }
 
 double sigma_with(const SigmaSigns& signs, double dz_m = kPlaneStep) {
@@ -52,6 +53,22 @@ TEST(HeightSigma, is_of_the_size_of_the_steps_around_where_the_costs_cannot_deci
   signs.excess_3(0, 0) = 0.5f;
   EXPECT_GT(sigma_with(signs), 1);
   EXPECT_LT(sigma_with(signs), 6);
+}
+
+TEST(HeightSigma, at_a_step_is_what_the_colours_say) {
+  SigmaSigns signs = sure_signs();
+  signs.step_5_m(0, 0) = signs.step_17_m(0, 0) = 6;
+  signs.excess_3(0, 0) = 0.5f;  // windows across the step cannot decide
+  const auto with = [&](float margin, float difference) {
+    signs.edges = {Array2d<float>(1, 1, margin), Array2d<float>(1, 1, difference)};
+    return sigma_with(signs);
+  };
+  EXPECT_LT(with(3, 1), 0.5 * kUnit) << "a clear choice";
+  EXPECT_GT(with(-0.5f, 1), 1) << "other surfaces would do as well";
+  EXPECT_GT(with(0.8f, 4), 1) << "the views do not agree";
+  const double without_choice = with(std::numeric_limits<float>::quiet_NaN(), 1);
+  signs.edges = {};
+  EXPECT_EQ(without_choice, sigma_with(signs));
 }
 
 TEST(HeightSigma, knows_no_scale) {

@@ -62,6 +62,10 @@ void write_signs(const sweep::SigmaSigns& signs, StageWriter& out) {
   out.write("step_5", signs.step_5_m, "height range of 5 x 5 cells", "metre");
   out.write("step_17", signs.step_17_m, "height range of 17 x 17 cells", "metre");
   out.write("offset", signs.offset_m, "distance from the mean height of 9 x 9 cells", "metre");
+  if (!signs.edges.margin.empty()) {
+    out.write("edge_margin", signs.edges.margin, "how much more the next best surface at a step costs", "");
+    out.write("edge_difference", signs.edges.difference, "difference between the colours of the chosen one", "");
+  }
   out.write("excess_3", signs.excess_3, "how much more the rival costs, 3 x 3 cells", "grey level");
   out.write("excess_9", signs.excess_9, "how much more the rival costs, 9 x 9 cells", "grey level");
   out.write("undecided", signs.undecided, "share of undecided cells, 17 x 17 cells", "");
