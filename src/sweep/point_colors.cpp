@@ -26,15 +26,23 @@ double color_difference(const MeanColor& a, const MeanColor& b) {
   return (std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2])) / 3.0;
 }
 
-PointColors point_colors(const SweepProblem& problem, const SurfaceVisibility& surface, int column, int row, double z,
-                         double largest_difference, Vec2d offset_m) {
-  const Vec2d cell = problem.grid.cell_center(column, row);
+bool CellSight::sees(int view, double z) {
+  const Vec3d eye = problem_.views[view].camera.pose().center;
+  double& lowest = lowest_visible_[view];
+  if (std::isnan(lowest)) lowest = surface_.lowest_visible(eye, column_, row_, lowest_m_);
+  return z >= lowest && z < eye.z;
+}
+
+PointColors point_colors(const SweepProblem& problem, CellSight& sight, double z, double largest_difference,
+                         Vec2d offset_m) {
+  const Vec2d cell = problem.grid.cell_center(sight.column(), sight.row());
   Channels seen;
   PointColors out;
-  for (const View& view : problem.views) {
+  for (int v = 0; v < static_cast<int>(problem.views.size()); ++v) {
+    const View& view = problem.views[v];
     const std::optional<Vec2d> pixel = view.camera.project({cell.x + offset_m.x, cell.y + offset_m.y, z});
     if (!pixel || !view.camera.shows(*pixel)) continue;
-    if (!surface.sees(view.camera.pose().center, column, row, z)) {
+    if (!sight.sees(v, z)) {
       ++out.hidden_from;
       continue;
     }

@@ -33,7 +33,7 @@ constexpr double kContrast = 2.5, kLeastWeight = 0.2;
 constexpr double kDiagonalWeight = 0.7;
 // A difference of so many cells' height is a step in full, a smaller one in part: a steep face made of many small steps
 // costs what one large step would, and the colours decide.
-constexpr double kFullStepCells = 8;
+constexpr double kFullStepCells = 7;
 // A gap is closed where the views agree so well, in units of the usual difference.
 constexpr double kAgreement = 2.5;
 // A surface is looked at so far from the middle of the cell, cells, towards its side: pixels on an edge are mixed.
@@ -72,6 +72,11 @@ struct EdgeCell {
     return true;
   }
   const Surface& surface() const { return of[chosen]; }
+  float lowest_m() const {
+    float lowest = of[0].z;
+    for (int i = 1; i < count; ++i) lowest = std::min(lowest, of[i].z);
+    return lowest;
+  }
 };
 
 // All cells at most `reach` columns and rows from a marked one.
@@ -212,8 +217,18 @@ class EdgePass {
     }
   }
 
+  template <typename Work>
+  void for_each(int count, Work work) const {
+    constexpr int kTogether = 64;
+    executor_.parallel_for((count + kTogether - 1) / kTogether, [&](int part) {
+      for (int i = part * kTogether; i < std::min(count, (part + 1) * kTogether); ++i) work(i);
+    });
+  }
+
   void put(const EdgeCell& cell) {
-    cell_at_(cell.column, cell.row) = static_cast<int>(cells_.size());
+    const int at = static_cast<int>(cells_.size());
+    cell_at_(cell.column, cell.row) = at;
+    if (cell.count > 1) of_parity_[2 * (cell.row & 1) + (cell.column & 1)].push_back(at);
     cells_.push_back(cell);
   }
 
@@ -233,24 +248,21 @@ class EdgePass {
   void judge() {
     const SurfaceVisibility visibility(problem_.grid, heights_.height_m, kOcclusionTolerancePlanes * problem_.dz_m);
     const double hidden_cost = problem_.options.edge_hidden_cost;
-    constexpr int kTogether = 64;
-    const int count = static_cast<int>(cells_.size());
-    executor_.parallel_for((count + kTogether - 1) / kTogether, [&](int part) {
-      for (int i = part * kTogether; i < std::min(count, (part + 1) * kTogether); ++i) {
-        EdgeCell& cell = cells_[i];
-        for (int k = 0; k < cell.count; ++k) {
-          Surface& s = cell.of[k];
-          const PointColors seen = point_colors(problem_, visibility, cell.column, cell.row, s.z,
-                                                kLargestDifference * usual_difference_, inwards(cell, s));
-          s.color = seen.median;
-          s.seen_by = seen.seen_by;
-          const int n = seen.seen_by;
-          s.cost = static_cast<float>(hidden_cost);
-          if (n < kFewestWitnesses) continue;
-          const double own = seen.spread / usual_difference_ * n / (n - 1) + kFewWitnessesPenalty / n;
-          s.difference = static_cast<float>(own);
-          s.cost = static_cast<float>((n * own + seen.hidden_from * hidden_cost) / (n + seen.hidden_from));
-        }
+    for_each(static_cast<int>(cells_.size()), [&](int i) {
+      EdgeCell& cell = cells_[i];
+      CellSight sight(problem_, visibility, cell.column, cell.row, cell.lowest_m());
+      for (int k = 0; k < cell.count; ++k) {
+        Surface& s = cell.of[k];
+        const PointColors seen =
+            point_colors(problem_, sight, s.z, kLargestDifference * usual_difference_, inwards(cell, s));
+        s.color = seen.median;
+        s.seen_by = seen.seen_by;
+        const int n = seen.seen_by;
+        s.cost = static_cast<float>(hidden_cost);
+        if (n < kFewestWitnesses) continue;
+        const double own = seen.spread / usual_difference_ * n / (n - 1) + kFewWitnessesPenalty / n;
+        s.difference = static_cast<float>(own);
+        s.cost = static_cast<float>((n * own + seen.hidden_from * hidden_cost) / (n + seen.hidden_from));
       }
     });
   }
@@ -280,21 +292,18 @@ class EdgePass {
     return s.cost + problem_.options.edge_penalty * disagreement(cell, s);
   }
 
-  // All cells of one of four colours of a chequerboard: none is another's neighbour.
+  // All cells of one of the four colours: none is another's neighbour.
   void choose(int parity) {
-    executor_.parallel_for(problem_.grid.height, [&](int row) {
-      if ((row & 1) != (parity >> 1)) return;
-      for (int column = parity & 1; column < problem_.grid.width; column += 2) {
-        if (cell_at_(column, row) < 0) continue;
-        EdgeCell& cell = cells_[cell_at_(column, row)];
-        int best = 0;
-        double least = std::numeric_limits<double>::infinity();
-        for (int i = 0; i < cell.count; ++i) {
-          const double cost = total_cost(cell, cell.of[i]);
-          if (cost < least) least = cost, best = i;
-        }
-        cell.chosen = best;
+    const std::vector<int>& members = of_parity_[parity];
+    for_each(static_cast<int>(members.size()), [&](int m) {
+      EdgeCell& cell = cells_[members[m]];
+      int best = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < cell.count; ++i) {
+        const double cost = total_cost(cell, cell.of[i]);
+        if (cost < least) least = cost, best = i;
       }
+      cell.chosen = best;
     });
   }
 
@@ -321,14 +330,12 @@ class EdgePass {
     }
     const SurfaceFit surface{problem_.grid.cell_m, alike_m_};
     std::vector<float> z(cells_.size());
-    executor_.parallel_for(problem_.grid.height, [&](int row) {
-      for (int column = 0; column < problem_.grid.width; ++column) {
-        if (!changed(column, row)) continue;
-        const int i = cell_at_(column, row);
-        const double rough = cells_[i].surface().z;
-        const double fitted = fitted_height(heights_, changed, surface, column, row, rough).value_or(rough);
-        z[i] = static_cast<float>(is_searched(fitted) ? fitted : rough);
-      }
+    for_each(static_cast<int>(cells_.size()), [&](int i) {
+      const EdgeCell& cell = cells_[i];
+      if (!changed(cell.column, cell.row)) return;
+      const double rough = cell.surface().z;
+      const double fitted = fitted_height(heights_, changed, surface, cell.column, cell.row, rough).value_or(rough);
+      z[i] = static_cast<float>(is_searched(fitted) ? fitted : rough);
     });
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const EdgeCell& cell = cells_[i];
@@ -348,6 +355,7 @@ class EdgePass {
   PlaneRange searched_;
   Array2d<int> cell_at_;
   std::vector<EdgeCell> cells_;
+  std::array<std::vector<int>, 4> of_parity_;  // those that have a choice, by the colour of a chequerboard of four
 };
 
 // The median difference between the colours in which views show a place, over places whose height is known and far from
@@ -369,7 +377,8 @@ std::optional<double> usual_difference(const SweepProblem& problem, const Height
     const int row = 1 + i * kEvery;
     for (int column = 1; column + 1 < problem.grid.width; column += kEvery) {
       if (!level(column, row)) continue;
-      const PointColors seen = point_colors(problem, visibility, column, row, z(column, row), kAnyDifference);
+      CellSight sight(problem, visibility, column, row, z(column, row));
+      const PointColors seen = point_colors(problem, sight, z(column, row), kAnyDifference);
       if (seen.seen_by >= kFewestWitnesses) of_row[i].push_back(seen.spread * seen.seen_by / (seen.seen_by - 1));
     }
   });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace skysweep::sweep {
 SurfaceVisibility::SurfaceVisibility(const Grid& grid, const Array2d<float>& height_m, double tolerance_m)
@@ -32,6 +33,31 @@ bool SurfaceVisibility::sees(Vec3d eye, int column, int row, double z) const {
     ++i;
   }
   return true;
+}
+
+double SurfaceVisibility::lowest_visible(Vec3d eye, int column, int row, double z) const {
+  const Vec2d cell = grid_.cell_center(column, row);
+  const double dx = (eye.x - cell.x) / grid_.cell_m, dy = (cell.y - eye.y) / grid_.cell_m;
+  const double steps = std::max(std::abs(dx), std::abs(dy));
+  if (steps < 1) return z;
+  if (eye.z <= z) return std::numeric_limits<double>::infinity();
+  const BlockExit exit(dx / steps, dy / steps);
+  for (int i = 1; i <= steps;) {
+    const double t = i / steps, line = z + t * (eye.z - z);
+    const int x = rounded(column + t * dx), y = rounded(row + t * dy);
+    if (highest_ - tolerance_m_ <= line || !height_m_.contains(x, y)) return z;
+    const double limit = line + tolerance_m_;
+    const int clear = maxima_.clear_cells(x, y, [limit](float highest) { return highest <= limit; });
+    if (clear > 0) {
+      i += exit.steps(clear, x, y);
+      continue;
+    }
+    const float height = height_m_(x, y);
+    // A line from (cell, z) passes step i at z + t (eye.z - z): the z with which it just clears this height.
+    if (height > limit) z = t < 1 ? (height - tolerance_m_ - t * eye.z) / (1 - t) : eye.z;  // never of NaN
+    ++i;
+  }
+  return z;
 }
 
 }  // namespace skysweep::sweep

@@ -19,6 +19,9 @@ class SurfaceVisibility {
   // Whether the straight line from the cell's centre at height z up to `eye` stays above the surface.
   bool sees(Vec3d eye, int column, int row, double z) const;
 
+  // The lowest height, from z on, from which it does; +infinity where the camera is no higher than z.
+  double lowest_visible(Vec3d eye, int column, int row, double z) const;
+
  private:
   Grid grid_;
   const Array2d<float>& height_m_;
