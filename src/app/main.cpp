@@ -26,6 +26,7 @@ int run_program(int argc, char** argv) {
   app::add_sweep_command(program, chosen);
   app::add_simulate_command(program, chosen);
   app::add_export_command(program, chosen);
+  app::add_render_command(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -40,6 +40,11 @@ Vec3d parse_origin(const std::string& text) {
   return {v[0], v[1], v[2]};
 }
 
+Vec3d parse_place(const std::string& text, const std::string& option) {
+  const auto v = numbers(text, 3, option, "E,N,H in map coordinates, metres");
+  return {v[0], v[1], v[2]};
+}
+
 Box2d parse_area(const std::string& text) {
   const auto v = numbers(text, 4, "--aoi", "x0,y0,x1,y1 in map coordinates");
   if (!(v[0] < v[2] && v[1] < v[3])) throw usage_error("--aoi takes x0,y0,x1,y1 with x0 < x1 and y0 < y1.");

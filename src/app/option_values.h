@@ -13,9 +13,10 @@
 
 namespace skysweep::app {
 
-Vec3d parse_origin(const std::string& text);                     // "X,Y,Z"
-Box2d parse_area(const std::string& text);                       // "x0,y0,x1,y1"
-sweep::HeightRange parse_height_range(const std::string& text);  // "a,b"
+Vec3d parse_origin(const std::string& text);                            // "X,Y,Z"
+Vec3d parse_place(const std::string& text, const std::string& option);  // "E,N,H"
+Box2d parse_area(const std::string& text);                              // "x0,y0,x1,y1"
+sweep::HeightRange parse_height_range(const std::string& text);         // "a,b"
 // Two numbers "a,b"; `form` says what they are.
 Vec2d parse_pair(const std::string& text, const std::string& option, const std::string& form);
 std::size_t parse_memory(const std::string& text);                     // "4GiB", "800MiB", "2GB"
