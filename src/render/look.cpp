@@ -17,4 +17,10 @@ Vec3d Sun::direction() const {
   return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
 }
 
+Sun usual_sun(const View& view) {
+  constexpr double kFromAbove = -0.8;  // steeper than 53 degrees
+  const double right_deg = std::atan2(view.right().x, view.right().y) * 180 / std::numbers::pi;
+  return {right_deg + (view.direction().z < kFromAbove ? 225 : 135), 45};
+}
+
 }  // namespace skysweep::render

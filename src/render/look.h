@@ -10,6 +10,7 @@
 #include "core/vec.h"
 #include "raster/hillshade.h"
 #include "render/palette.h"
+#include "render/view.h"
 
 namespace skysweep::render {
 
@@ -30,16 +31,19 @@ struct Sun {
   Vec3d direction() const;  // towards it
 };
 
+// Over the left shoulder of who looks at the picture, so that what is turned to them is lit; from the upper left for
+// views from above, as on maps: north-west with north at the top.
+Sun usual_sun(const View& view);
+
 struct LookOptions {
   Look look = Look::orthophoto;
-  std::optional<Sun> sun;                           // without it north-west at 45 degrees, and none for orthophoto
+  std::optional<Sun> sun;                           // without it usual_sun, and none for orthophoto
   bool shadows = false;                             // cast shadows
   std::optional<raster::HeightSpan> relief_span_m;  // heights at the ends of the colours; usually those of the map
   Rgb8 background{226, 232, 238};
   bool legend = true;  // for looks whose colours stand for numbers
 
   bool is_lit() const { return look != Look::orthophoto || sun || shadows; }
-  Vec3d sun_direction() const { return sun.value_or(Sun{}).direction(); }
 };
 
 // What the colours of a look stand for: numbers from low to high.

@@ -18,17 +18,17 @@ Vec3d hatch(Vec2d pixel) {
   return static_cast<long long>(std::floor((pixel.x + pixel.y) / kHatchPx)) % 2 ? kHatchDark : kHatchLight;
 }
 
-// Share of the light that reaches a place without sun, and factor that keeps level ground lit at 45 degrees near its
+// Share of the light that comes from the sky, and factor that keeps level ground lit at 45 degrees near its
 // own colour.
 struct Lighting {
   double ambient, brightness;
 };
 Lighting lighting_of(Look look) {
   switch (look) {
-    case Look::hillshade: return {0.12, 1.15};
-    case Look::relief: return {0.2, 1.25};
-    case Look::orthophoto: return {0.35, 1.25};
-    default: return {0.6, 1.13};  // numbers have to stay readable
+    case Look::hillshade: return {0.35, 1.2};
+    case Look::relief: return {0.35, 1.25};
+    case Look::orthophoto: return {0.45, 1.25};
+    default: return {0.65, 1.2};  // numbers have to stay readable
   }
 }
 
@@ -49,12 +49,12 @@ std::optional<Scale> scale_of(const MapScene& scene, const LookOptions& options,
 
 }  // namespace
 
-Shading::Shading(const MapScene& scene, const LookOptions& options, PixelSize pixel, const ViewCounts* counts)
+Shading::Shading(const MapScene& scene, const LookOptions& options, const View& view, const ViewCounts* counts)
     : scene_(scene),
       options_(options),
-      pixel_(pixel),
+      pixel_(view.pixel()),
       counts_(counts),
-      sun_(options.sun_direction()),
+      sun_(options.sun.value_or(usual_sun(view)).direction()),
       scale_(scale_of(scene, options, counts)) {}
 
 double Shading::level_at(const Hit& hit) const {
@@ -105,8 +105,11 @@ Vec3d Shading::color(const Ray& ray, const Hit& hit, bool in_shadow, Vec2d pixel
   const Vec3d base = base_color(place, hit);
   if (!options_.is_lit()) return base;
   const Lighting light = lighting_of(options_.look);
-  const double sun = in_shadow ? 0 : std::max(0.0, dot(normal(ray, hit), sun_));
-  const Vec3d lit = light.brightness * (light.ambient + (1 - light.ambient) * sun) * base;
+  const Vec3d n = normal(ray, hit);
+  const double sun = in_shadow ? 0 : std::max(0.0, dot(n, sun_));
+  // The sky opposite of the sun lights what is turned away, so that faces in the shade differ, too.
+  const double sky = 0.5 + 0.5 * dot(n, {-sun_.x, -sun_.y, sun_.z});
+  const Vec3d lit = light.brightness * (light.ambient * sky + (1 - light.ambient) * sun) * base;
   return {std::min(lit.x, 255.0), std::min(lit.y, 255.0), std::min(lit.z, 255.0)};
 }
 

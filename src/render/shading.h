@@ -14,7 +14,7 @@ namespace skysweep::render {
 class Shading {
  public:
   // The scene must outlive it. `counts` is needed for Look::views, and then must outlive it, too.
-  Shading(const MapScene& scene, const LookOptions& options, PixelSize pixel, const ViewCounts* counts);
+  Shading(const MapScene& scene, const LookOptions& options, const View& view, const ViewCounts* counts);
 
   // 0 to 255. `pixel`: where in the picture, for the hatching of holes.
   Vec3d color(const Ray& ray, const Hit& hit, bool in_shadow, Vec2d pixel) const;

@@ -45,13 +45,32 @@ std::array<Vec3d, 8> corners(const Box3d& box) {
   return all;
 }
 
-View framed_perspective(camera::Pose pose, const Box3d& bounds, double fov_deg, PictureSize size) {
-  const double tan_x = half_width(fov_deg) / kMargin, tan_y = tan_x * size.height_px / size.width_px;
+// How far behind the pose's centre everything fits, the view direction kept.
+double fitting_distance(const camera::Pose& pose, const Box3d& bounds, double tan_x, double tan_y) {
   double distance = 0;
   for (const Vec3d corner : corners(bounds)) {
     const Vec3d p = pose.cam_from_world * (corner - pose.center);
     distance = std::max({distance, std::abs(p.x) / tan_x - p.z, std::abs(p.y) / tan_y - p.z});
   }
+  return distance;
+}
+
+// The pose's centre moved sideways until the bounds lie in the middle of what is seen from `distance` behind it.
+void center_bounds(camera::Pose& pose, const Box3d& bounds, double distance) {
+  Box2d seen;
+  for (const Vec3d corner : corners(bounds)) {
+    const Vec3d p = pose.cam_from_world * (corner - pose.center);
+    seen.extend({p.x / (p.z + distance), p.y / (p.z + distance)});
+  }
+  pose.center = pose.center + 0.5 * distance * (seen.min.x + seen.max.x) * pose.right() +
+                0.5 * distance * (seen.min.y + seen.max.y) * pose.down();
+}
+
+View framed_perspective(camera::Pose pose, const Box3d& bounds, double fov_deg, PictureSize size) {
+  constexpr int kRounds = 8;  // each leaves a fraction of the way to go
+  const double tan_x = half_width(fov_deg) / kMargin, tan_y = tan_x * size.height_px / size.width_px;
+  for (int i = 0; i < kRounds; ++i) center_bounds(pose, bounds, fitting_distance(pose, bounds, tan_x, tan_y));
+  const double distance = fitting_distance(pose, bounds, tan_x, tan_y);
   pose.center = camera::snap_position(pose.center - distance * pose.view_direction());
   return perspective_view(pose, fov_deg, size);
 }

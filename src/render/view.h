@@ -31,6 +31,7 @@ class View {
   PixelSize pixel() const { return pixel_; }
   // The direction of the middle of the picture, away from the camera.
   Vec3d direction() const { return pose_.view_direction(); }
+  Vec3d right() const { return pose_.right(); }
 
  private:
   camera::Pose pose_;

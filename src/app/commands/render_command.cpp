@@ -54,7 +54,7 @@ std::optional<Drawn> draw(const RenderOptions& options, const render::MapScene& 
   const render::LookOptions look = options.look_options();
   std::optional<render::ViewCounts> counts;
   if (look.look == render::Look::views) counts.emplace(cameras_of(images), scene.true_bounds());
-  const render::Shading shading(scene, look, view.pixel(), counts ? &*counts : nullptr);
+  const render::Shading shading(scene, look, view, counts ? &*counts : nullptr);
   const render::RayCaster caster(scene.field(), options.surface_form());
   const std::unique_ptr<render::Tracer> tracer = render::make_cpu_tracer(caster, executor);
   console.begin("render", 100);
@@ -127,7 +127,8 @@ void add_render_command(CLI::App& program, ChosenCommand& chosen) {
   command->add_flag("--orthographic", o->orthographic, "Parallel projection");
   command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels (default 1280x720, or the photograph's)");
   command->add_option("--aoi", o->area, "Only x0,y0,x1,y1 of the map, in its CRS");
-  command->add_option("--sun", o->sun, "AZIMUTH,ELEVATION in degrees, clockwise from north (default 315,45)");
+  command->add_option("--sun", o->sun,
+                      "AZIMUTH,ELEVATION in degrees, clockwise from north (default: over the left shoulder)");
   command->add_flag("--shadows", o->shadows, "Cast shadows");
   command->add_option("--exaggeration", o->exaggeration, "Factor on heights above the map's lowest (default 1)");
   command->add_option("--relief-range", o->relief_range, "LOW,HIGH: heights at the ends of the relief's colours");
