@@ -19,8 +19,10 @@ Rgb8 rounded(Vec3d c) {
   return {byte(c.x), byte(c.y), byte(c.z)};
 }
 
-// As many digits as the span needs.
-std::string number_text(double value, double span) {
+// At a share of the scale, with as many digits as its span needs.
+std::string number_text(const Scale& scale, double share) {
+  const double span = scale.high - scale.low, value = scale.low + share * span;
+  if (scale.whole) return std::to_string(static_cast<int>(value));
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", span >= 20 ? 0 : span >= 2 ? 1 : span >= 0.2 ? 2 : 3, value);
   return text;
@@ -47,11 +49,9 @@ void draw_legend(const Scale& scale, Array2d<Rgb8>& picture) {
   draw_panel(picture, left, top);
   raster::draw_text(picture, left + kPad, top + kPad + kTextPx - 2, scale.title, kTextPx, kInk);
   draw_bar(scale, picture, left + kPad, top + 22, bar);
-  const double span = scale.high - scale.low;
   const int baseline = top + kHeight - 9;
   for (const double share : {0.0, 0.5, 1.0}) {
-    const std::string text = scale.palette ? number_text(scale.low + share * span, span)
-                                           : std::to_string(static_cast<int>(std::floor(share * span)));
+    const std::string text = number_text(scale, share);
     const int width = raster::text_width_px(text, kTextPx);
     const int x = left + kPad + static_cast<int>(share * bar) - static_cast<int>(share * width);
     raster::draw_text(picture, x, baseline, text, kTextPx, kInk);

@@ -50,7 +50,8 @@ struct LookOptions {
 struct Scale {
   const Palette* palette = nullptr;  // none: colours of levels
   double low = 0, high = 1;
-  std::string title;  // with unit
+  std::string title;   // with unit
+  bool whole = false;  // whole numbers only
   double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
 };
 

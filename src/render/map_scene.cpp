@@ -72,7 +72,7 @@ double MapScene::usual_largest_sigma_m() const {
   for (const float s : sigma_m_)
     if (std::isfinite(s)) known.push_back(s);
   if (known.empty()) return 0;
-  const auto at = known.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(known.size() - 1));
+  const auto at = known.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(known.size() - 1));
   std::nth_element(known.begin(), at, known.end());
   return *at;
 }

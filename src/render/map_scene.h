@@ -32,7 +32,7 @@ class MapScene {
   Vec3d normal(Vec3d place, double level) const;
   Vec3d true_normal(Vec3d place, double level) const;
 
-  // All but 2 % of the known standard deviations are smaller; 0 if none is known.
+  // All but a tenth of the known standard deviations are smaller; 0 if none is known.
   double usual_largest_sigma_m() const;
 
  private:

@@ -12,7 +12,7 @@ constexpr Vec3d kUnknownColor{150, 150, 150};  // a known height whose number or
 constexpr Vec3d kUnderside{70, 66, 64};        // the surface seen from below
 constexpr double kHatchPx = 5;                 // width of a stripe
 constexpr Vec3d kHatchLight{235, 235, 235}, kHatchDark{170, 170, 175};
-constexpr double kSteepest = 75;  // degrees, at the end of the colours of slope
+constexpr double kSteepest = 60;  // degrees, at the end of the colours of slope
 
 Vec3d hatch(Vec2d pixel) {
   return static_cast<long long>(std::floor((pixel.x + pixel.y) / kHatchPx)) % 2 ? kHatchDark : kHatchLight;
@@ -41,8 +41,8 @@ std::optional<Scale> scale_of(const MapScene& scene, const LookOptions& options,
     }
     case Look::slope: return Scale{&slope_palette(), 0, kSteepest, "slope, degrees"};
     case Look::confidence: return Scale{&confidence_palette(), 0, scene.usual_largest_sigma_m(), "sigma of height, m"};
-    case Look::views: return Scale{&count_palette(), 0, 1. * (counts ? counts->most() : 0), "photographs"};
-    case Look::level: return Scale{nullptr, 0, 7, "level"};
+    case Look::views: return Scale{&count_palette(), 0, 1. * (counts ? counts->most() : 0), "photographs", true};
+    case Look::level: return Scale{nullptr, 0, 7, "level", true};
     default: return std::nullopt;
   }
 }
