@@ -183,7 +183,7 @@ TEST_F(Render, a_photographs_own_view_gives_the_photograph_back) {
     return 10 * std::log10(255 * 255 / (sum / count));
   };
   RecordProperty("psnr_db", std::to_string(psnr_shifted(0)));
-  EXPECT_GT(psnr_shifted(0), 20);
+  EXPECT_GT(psnr_shifted(0), 25);
   EXPECT_GT(psnr_shifted(0), psnr_shifted(3) + 1);
   EXPECT_EQ(rendered("view.png", {"--photo=" + name}).exit_code, 2);  // 160x100 is not its shape
   EXPECT_EQ(rendered("view.png", {"--photo=" + name, "--exaggeration=2"}).exit_code, 2);
