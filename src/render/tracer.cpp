@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace skysweep::render {
 namespace {
@@ -31,7 +32,35 @@ class CpuTracer final : public Tracer {
   std::atomic<std::int64_t> steps_ = 0;
 };
 
+class FallbackTracer final : public Tracer {
+ public:
+  FallbackTracer(std::unique_ptr<Tracer> first, std::unique_ptr<Tracer> second,
+                 std::function<void(const std::string&)> tell)
+      : first_(std::move(first)), second_(std::move(second)), tell_(std::move(tell)) {}
+
+  std::vector<Hit> first_hits(const std::vector<Ray>& rays, const TraceOptions& options) override {
+    if (!failed_) try {
+        return first_->first_hits(rays, options);
+      } catch (const gpu::DeviceError& error) {
+        failed_ = true;
+        tell_(error.what());
+      }
+    return second_->first_hits(rays, options);
+  }
+  std::int64_t steps() const override { return first_->steps() + second_->steps(); }
+
+ private:
+  std::unique_ptr<Tracer> first_, second_;
+  std::function<void(const std::string&)> tell_;
+  bool failed_ = false;
+};
+
 }  // namespace
+
+std::unique_ptr<Tracer> with_fallback(std::unique_ptr<Tracer> first, std::unique_ptr<Tracer> second,
+                                      std::function<void(const std::string&)> tell) {
+  return std::make_unique<FallbackTracer>(std::move(first), std::move(second), std::move(tell));
+}
 
 std::unique_ptr<Tracer> make_cpu_tracer(const RayCaster& caster, Executor& executor) {
   return std::make_unique<CpuTracer>(caster, executor);
