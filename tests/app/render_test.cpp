@@ -82,6 +82,19 @@ TEST_F(Render, looks_differ_and_kinds_of_files_hold_the_same_picture) {
   EXPECT_LT(fs::file_size(folder / "c.jpg"), fs::file_size(folder / "b.jpg"));
 }
 
+TEST_F(Render, a_device_casts_the_rays_if_asked_to_and_draws_the_same_picture) {
+  ASSERT_EQ(rendered("cpu.png", {"--look=relief", "--backend=cpu"}).exit_code, 0);
+  const Outcome outcome = rendered("gpu.png", {"--look=relief", "--backend=gpu"});
+  if (outcome.exit_code != 0) {
+    EXPECT_TRUE(says(outcome.err, {"--backend cpu"}));
+    GTEST_SKIP() << outcome.err;
+  }
+  EXPECT_TRUE(says(outcome.out + outcome.err, {"Rays are cast by"}));
+  const cv::Mat a = cv::imread((folder / "cpu.png").string(), cv::IMREAD_COLOR);
+  const cv::Mat b = cv::imread((folder / "gpu.png").string(), cv::IMREAD_COLOR);
+  EXPECT_LT(cv::norm(a, b, cv::NORM_L1) / (160 * 100 * 3), 0.01);
+}
+
 TEST_F(Render, openexr_holds_layers_in_map_coordinates) {
   ASSERT_EQ(rendered("layers.exr", {"--view=top"}).exit_code, 0);
   const raster::ExrImage image = raster::read_exr(folder / "layers.exr");
@@ -100,7 +113,7 @@ TEST_F(Render, little_memory_draws_a_coarser_level_and_too_little_is_refused) {
   const Outcome fine = rendered("picture.png", top);
   EXPECT_TRUE(says(fine.out, {"level 0"}));
   Arguments small = top;
-  small.push_back("--memory=321MiB");
+  small.push_back("--memory=322MiB");
   const Outcome coarse = rendered("coarse.png", small);
   EXPECT_EQ(coarse.exit_code, 0) << coarse.err;
   EXPECT_FALSE(says(coarse.out, {"level 0"})) << coarse.out;
@@ -143,6 +156,7 @@ TEST_F(Render, wrong_words_are_usage_errors_that_say_what_to_change) {
       {{"--quality=50"}, {"--quality has no effect"}},
       {{"--background=green"}, {"RRGGBB"}},
       {{"--threads=0"}, {"--threads"}},
+      {{"--backend=gpo"}, {"--backend", "did you mean gpu?"}},
       {{"--aoi=1,2,3"}, {"--aoi"}},
       {{"--memory=much"}, {"--memory"}},
   };

@@ -11,6 +11,7 @@
 #include "app/interrupt.h"
 #include "app/option_values.h"
 #include "core/error.h"
+#include "gpu/device.h"
 #include "index/catalogue.h"
 #include "pipeline/project.h"
 #include "pipeline/tbb_executor.h"
@@ -22,7 +23,7 @@ namespace skysweep::app {
 namespace {
 
 // What a cell takes with all that is made of it, a pixel until it is encoded, and the program with a band of rays.
-constexpr std::size_t kBytesPerCell = 48, kBytesPerPixel = 16, kBytesPerLayeredPixel = 72;
+constexpr std::size_t kBytesPerCell = 64, kBytesPerPixel = 16, kBytesPerLayeredPixel = 72;
 constexpr std::size_t kBytesBeside = std::size_t{320} << 20;
 
 std::int64_t cells_that_fit(const RenderOptions& options, render::PictureSize size) {
@@ -43,6 +44,35 @@ std::vector<camera::Camera> cameras_of(const std::vector<index::ImageRecord>& im
   return cameras;
 }
 
+// What casts the rays, and the device that it may be on.
+struct Caster {
+  std::unique_ptr<gpu::Device> device;
+  std::unique_ptr<render::Tracer> tracer;
+};
+
+// `auto` takes a real GPU if there is one that can hold the map; `gpu` also Mesa's rasteriser on the CPU, and throws
+// where there is neither.
+Caster make_caster(RenderBackend backend, const render::RayCaster& surface, Executor& executor, Console& console) {
+  Caster caster;
+  caster.tracer = render::make_cpu_tracer(surface, executor);
+  if (backend == RenderBackend::cpu || (backend == RenderBackend::automatic && !gpu::Device::lists_real_gpu()))
+    return caster;
+  try {
+    caster.device = gpu::Device::open();
+    console.say("Rays are cast by " + caster.device->name() + ".");
+    caster.tracer = render::with_fallback(
+        render::make_gpu_tracer(surface, *caster.device), std::move(caster.tracer), [&console](const std::string& why) {
+          console.warn("The GPU failed (" + why + "); the picture goes on without it.");
+        });
+  } catch (const gpu::DeviceError& error) {
+    if (backend == RenderBackend::gpu)
+      throw failure(std::string(error.what()) + " Take --backend cpu, or auto, which does without.");
+    console.warn("The GPU cannot be used (" + std::string(error.what()) + "); the picture is made without it.");
+    caster.device.reset();
+  }
+  return caster;
+}
+
 struct Drawn {
   Array2d<Rgb8> picture;
   std::optional<render::PictureLayers> layers;
@@ -55,18 +85,19 @@ std::optional<Drawn> draw(const RenderOptions& options, const render::MapScene& 
   std::optional<render::ViewCounts> counts;
   if (look.look == render::Look::views) counts.emplace(cameras_of(images), scene.true_bounds());
   const render::Shading shading(scene, look, view, counts ? &*counts : nullptr);
-  const render::RayCaster caster(scene.field(), options.surface_form());
-  const std::unique_ptr<render::Tracer> tracer = render::make_cpu_tracer(caster, executor);
+  const render::RayCaster surface(scene.field(), options.surface_form());
+  const Caster caster = make_caster(options.chosen_backend(), surface, executor, console);
   console.begin("render", 100);
   int done = 0;
   const auto on_band = [&](double share) {
     for (; done < static_cast<int>(100 * share + 1e-6); ++done) console.advance();
     return !interrupt_requested();
   };
-  Drawn drawn{render::draw_picture(view, shading, look, options.picture_options(), *tracer, executor, on_band), {}};
+  Drawn drawn{render::draw_picture(view, shading, look, options.picture_options(), *caster.tracer, executor, on_band),
+              {}};
   if (interrupt_requested()) return std::nullopt;
   if (options.kind() == PictureKind::exr)
-    drawn.layers = render::draw_layers(view, shading, scene.drawn_bounds().min, *tracer, executor);
+    drawn.layers = render::draw_layers(view, shading, scene.drawn_bounds().min, *caster.tracer, executor);
   else if (look.legend && shading.scale())
     render::draw_legend(*shading.scale(), drawn.picture);
   return drawn;
@@ -141,6 +172,8 @@ void add_render_command(CLI::App& program, ChosenCommand& chosen) {
   command->add_option("--memory", o->memory,
                       "Most memory to use (default 2GiB): larger maps are drawn at a coarser level");
   command->add_option("--threads", o->threads, "Number of threads (default: all)");
+  command->add_option("--backend", o->backend,
+                      "auto (default: gpu if the machine has a real one, else cpu), cpu or gpu");
   command->add_flag("--json-log", o->json_log, "One JSON object a line instead of text");
   command->callback([o, &chosen] { chosen = [o] { return render_map(*o); }; });
 }

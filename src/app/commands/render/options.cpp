@@ -19,6 +19,7 @@ using render::NamedView;
 constexpr double kUsualFovDeg = 45;
 constexpr int kLargestSidePx = 16384, kUsualSamples = 2, kMostSamples = 8;
 const std::vector<std::string> kSurfaces = {"boxes", "bilinear"};
+const std::vector<std::string> kBackends = {"auto", "cpu", "gpu"};
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -143,11 +144,16 @@ render::SurfaceForm RenderOptions::surface_form() const {
   return static_cast<render::SurfaceForm>(index_of(surface, kSurfaces, "--surface"));
 }
 
+RenderBackend RenderOptions::chosen_backend() const {
+  return static_cast<RenderBackend>(index_of(backend, kBackends, "--backend"));
+}
+
 void RenderOptions::check() const {
   const PictureKind to = kind();
   const Look chosen = look_options().look;
   picture_options();
   surface_form();
+  chosen_backend();
   quality_or_default();
   if (size) parse_size(*size);
   if (area) parse_area(*area);

@@ -14,6 +14,7 @@
 namespace skysweep::app {
 
 enum class PictureKind { png, jpeg, webp, exr };
+enum class RenderBackend { automatic, cpu, gpu };
 
 struct RenderOptions {
   std::string project, output;
@@ -24,6 +25,7 @@ struct RenderOptions {
   std::optional<int> quality, threads, samples;
   double exaggeration = 1;
   std::string memory = "2GiB";
+  std::string backend = "auto";
   bool orthographic = false, shadows = false, no_legend = false, exact = false, json_log = false;
 
   // Throws Error(usage) for anything that can be seen to be wrong without the map.
@@ -35,6 +37,7 @@ struct RenderOptions {
   render::PictureOptions picture_options() const;
   render::SurfaceForm surface_form() const;
   int quality_or_default() const;
+  RenderBackend chosen_backend() const;
 
   // `images`: of the catalogue. `bounds`: of the drawn surface.
   render::View chosen_view(const Box3d& bounds, const std::vector<index::ImageRecord>& images) const;
