@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The render command from outside: that each option changes the picture, refusals, what is left behind. What pictures
 // show: tests/render.
+#include <chrono>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
+#include <thread>
 
 #include "app/simulated_flight.h"
 #include "raster/exr.h"
@@ -173,6 +175,19 @@ TEST_F(Render, wrong_words_are_usage_errors_that_say_what_to_change) {
   EXPECT_TRUE(says(size.err, {"--size takes WIDTHxHEIGHT"}));
   EXPECT_EQ(skysweep({"render", folder / "nothing", "-o", folder / "wrong.png"}).exit_code, 3);
   EXPECT_FALSE(fs::exists(folder / "wrong.png"));
+}
+
+TEST_F(Render, an_interrupted_picture_is_not_written) {
+  Process process({"render", project(), "-o", folder / "large.png", "--size=8000x8000", "--samples=8", "--json-log"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // minutes of work, less than a second to their start
+  ASSERT_TRUE(process.is_running());
+  process.interrupt();
+  const Outcome outcome = process.wait();
+  if (outcome.exit_code != -1) {  // else a busy machine had not brought it to where it listens
+    EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+    EXPECT_TRUE(says(outcome.out + outcome.err, {"Nothing was written"}));
+  }
+  EXPECT_FALSE(fs::exists(folder / "large.png"));
 }
 
 // The map seen from a photograph's own camera is that photograph, where the map has what it shows.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "render/landscapes.h"
@@ -26,8 +27,8 @@ MapWindow town() {
       if (x >= 24 && x < 36 && y >= 16 && y < 30) {
         map.height_m(x, y) = 16;
         map.color(x, y) = {200, 80, 60, 255};
-        map.sigma_m(x, y) = 0.2f;
       }
+      if (x >= 24) map.sigma_m(x, y) = 0.2f;
       if (x >= 50) map.height_m(x, y) = 10 + 0.5f * static_cast<float>(x - 50);
       if (x >= 6 && x < 12 && y >= 20 && y < 26) map.height_m(x, y) = std::nanf("");
     }
@@ -140,6 +141,37 @@ TEST_F(Picture, levels_show_where_detail_was_left_away) {
   exact.level_of_detail = false;
   const Array2d<Rgb8> a = drawn(far, of(Look::level), exact), b = drawn(far, of(Look::level), coarse);
   EXPECT_FALSE(a == b);
+}
+
+double mean_difference(const Array2d<Rgb8>& a, const Array2d<Rgb8>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Rgb8 p = a.data()[i], q = b.data()[i];
+    sum += std::abs(p.r - q.r) + std::abs(p.g - q.g) + std::abs(p.b - q.b);
+  }
+  return sum / (3.0 * static_cast<double>(a.size()));
+}
+
+// A slow flight away from the map, over which whole levels of detail are left out one after the other: no frame jumps.
+// Bounds: the picture stays within half a grey level (mean) of the one without the stop, and changes from frame to
+// frame no more than a tenth of one beyond what that one does.
+TEST_F(Picture, levels_of_detail_come_and_go_without_popping) {
+  PictureOptions exact;
+  exact.level_of_detail = false;
+  LookOptions look = of(Look::relief);
+  look.relief_span_m = raster::HeightSpan{9, 17};
+  std::optional<Array2d<Rgb8>> before, exact_before;
+  for (double distance = 60; distance < 1500; distance *= 1.03) {
+    const Vec3d target = place_of(32, 24), eye = target + distance * normalized(Vec3d{-0.3, -1, 0.7});
+    const View view = perspective_view(look_at(eye, target), 8, {64, 48});
+    const Array2d<Rgb8> frame = drawn(view, look), exact_frame = drawn(view, look, exact);
+    EXPECT_LT(mean_difference(frame, exact_frame), 0.5) << distance;
+    if (before) {
+      EXPECT_LT(mean_difference(frame, *before), mean_difference(exact_frame, *exact_before) + 0.1) << distance;
+    }
+    before = frame;
+    exact_before = exact_frame;
+  }
 }
 
 TEST_F(Picture, samples_smooth_edges) {
