@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/option_values.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
 #include "core/error.h"
+#include "settings/nearest_word.h"
 
 namespace skysweep::app {
 namespace {
@@ -82,6 +84,17 @@ std::optional<sweep::Backend> parse_backend(const std::string& text) {
   if (text == "gpu") return sweep::Backend::gpu;
   if (text == "reference") return sweep::Backend::reference;
   throw usage_error("--backend takes auto, cpu, gpu or reference, not '" + text + "'.");
+}
+
+int index_of_word(const std::string& word, const std::vector<std::string>& words, const std::string& option) {
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<int>(found - words.begin());
+  std::string all;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    all += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  const std::optional<std::string> nearest = settings::nearest_word(word, words);
+  throw usage_error(option + " takes " + all + ", not '" + word + "'" +
+                    (nearest ? "; did you mean " + *nearest + "?" : "."));
 }
 
 double require_positive(double value, const std::string& option) {

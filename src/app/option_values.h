@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/box.h"
 #include "core/vec.h"
@@ -21,6 +22,9 @@ sweep::HeightRange parse_height_range(const std::string& text);         // "a,b"
 Vec2d parse_pair(const std::string& text, const std::string& option, const std::string& form);
 std::size_t parse_memory(const std::string& text);                     // "4GiB", "800MiB", "2GB"
 std::optional<sweep::Backend> parse_backend(const std::string& text);  // nothing for "auto"
+
+// The place of the word among those that the option takes; for an unknown one the sentence names the nearest.
+int index_of_word(const std::string& word, const std::vector<std::string>& words, const std::string& option);
 
 // The value itself if it is a positive, finite number.
 double require_positive(double value, const std::string& option);

@@ -9,7 +9,6 @@
 #include "app/option_values.h"
 #include "core/error.h"
 #include "raster/crs.h"
-#include "settings/nearest_word.h"
 
 namespace skysweep::app {
 namespace {
@@ -21,22 +20,6 @@ const std::vector<std::string> kFormats = {"cog",        "geotiff-tiles", "web-t
                                            "ascii-grid", "xyz-text",      "exr"};
 const std::vector<std::string> kSchemes = {"xyz", "tms"};
 const std::vector<std::string> kResamplings = {"nearest", "bilinear", "cubic", "average"};
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-  return text;
-}
-
-// The place of the word among those that an option takes.
-int index_of(const std::string& word, const std::vector<std::string>& words, const std::string& option) {
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<int>(found - words.begin());
-  const std::optional<std::string> nearest = settings::nearest_word(word, words);
-  throw usage_error(option + " takes " + joined(words) + ", not '" + word + "'" +
-                    (nearest ? "; did you mean " + *nearest + "?" : "."));
-}
 
 // "18" or "14-20".
 exports::ZoomRange parse_zooms(const std::string& text) {
@@ -66,7 +49,7 @@ struct Limited {
 }  // namespace
 
 ExportFormat ExportOptions::chosen_format() const {
-  return static_cast<ExportFormat>(index_of(format, kFormats, "--format"));
+  return static_cast<ExportFormat>(index_of_word(format, kFormats, "--format"));
 }
 
 void ExportOptions::check() const {
@@ -92,7 +75,7 @@ void ExportOptions::check() const {
 
 exports::MapRequest ExportOptions::request(const std::string& map_crs) const {
   exports::MapRequest request;
-  if (layer) request.layer = static_cast<exports::Layer>(index_of(*layer, exports::layer_names(), "--layer"));
+  if (layer) request.layer = static_cast<exports::Layer>(index_of_word(*layer, exports::layer_names(), "--layer"));
   if (area) request.area = parse_area(*area);
   if (crs) {
     if (raster::is_local_crs(map_crs))
@@ -103,7 +86,7 @@ exports::MapRequest ExportOptions::request(const std::string& map_crs) const {
   }
   request.cell = cell;
   if (resampling)
-    request.resampling = static_cast<raster::Resampling>(index_of(*resampling, kResamplings, "--resampling"));
+    request.resampling = static_cast<raster::Resampling>(index_of_word(*resampling, kResamplings, "--resampling"));
   if (relief_range) {
     const Vec2d range = parse_pair(*relief_range, "--relief-range", "LOW,HIGH in metres");
     request.relief_span_m = raster::HeightSpan{range.x, range.y};
@@ -135,7 +118,8 @@ exports::WebTileOptions ExportOptions::web_tiles(const tiles::TileStore& store) 
   exports::WebTileOptions web;
   web.encoding = heights ? terrarium : numbers ? float32 : png;
   if (encoding)
-    web.encoding = static_cast<exports::TileEncoding>(index_of(*encoding, exports::encoding_names(), "--encoding"));
+    web.encoding =
+        static_cast<exports::TileEncoding>(index_of_word(*encoding, exports::encoding_names(), "--encoding"));
   if (numbers && exports::is_picture(web.encoding))
     throw usage_error("--encoding " + *encoding + " is for pictures: for " + exports::to_string(chosen) +
                       " take float32" + (heights ? ", terrarium or terrain-rgb" : "") +
@@ -164,7 +148,8 @@ exports::MapRequest ExportOptions::web_request(const tiles::TileStore& store,
 }
 
 exports::TileScheme ExportOptions::tile_scheme() const {
-  return scheme ? static_cast<exports::TileScheme>(index_of(*scheme, kSchemes, "--scheme")) : exports::TileScheme::xyz;
+  return scheme ? static_cast<exports::TileScheme>(index_of_word(*scheme, kSchemes, "--scheme"))
+                : exports::TileScheme::xyz;
 }
 
 }  // namespace skysweep::app

@@ -21,24 +21,8 @@ constexpr int kLargestSidePx = 16384, kUsualSamples = 2, kMostSamples = 8;
 const std::vector<std::string> kSurfaces = {"boxes", "bilinear"};
 const std::vector<std::string> kBackends = {"auto", "cpu", "gpu"};
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-  return text;
-}
-
-// The place of the word among those that an option takes.
-int index_of(const std::string& word, const std::vector<std::string>& words, const std::string& option) {
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<int>(found - words.begin());
-  const std::optional<std::string> nearest = settings::nearest_word(word, words);
-  throw usage_error(option + " takes " + joined(words) + ", not '" + word + "'" +
-                    (nearest ? "; did you mean " + *nearest + "?" : "."));
-}
-
 NamedView named_view(const std::string& word) {
-  return static_cast<NamedView>(index_of(word, render::named_view_names(), "--view"));
+  return static_cast<NamedView>(index_of_word(word, render::named_view_names(), "--view"));
 }
 
 // "1280x720".
@@ -86,7 +70,8 @@ const index::ImageRecord& photograph(const std::string& name, const std::vector<
   std::vector<std::string> names;
   for (const index::ImageRecord& image : images) {
     if (image.name == name) {
-      if (image.model.width_px == 0) throw bad_input("the photograph " + name + " has no camera: " + image.reason);
+      if (image.model.problem() || image.pose.problem())
+        throw bad_input("the photograph " + name + " has no camera or no pose: " + image.reason);
       return image;
     }
     names.push_back(image.name);
@@ -117,7 +102,7 @@ int RenderOptions::quality_or_default() const {
 
 render::LookOptions RenderOptions::look_options() const {
   render::LookOptions options;
-  options.look = static_cast<Look>(index_of(look, render::look_names(), "--look"));
+  options.look = static_cast<Look>(index_of_word(look, render::look_names(), "--look"));
   if (sun) options.sun = parse_sun(*sun);
   options.shadows = shadows;
   if (background) options.background = parse_color(*background);
@@ -141,11 +126,11 @@ render::PictureOptions RenderOptions::picture_options() const {
 }
 
 render::SurfaceForm RenderOptions::surface_form() const {
-  return static_cast<render::SurfaceForm>(index_of(surface, kSurfaces, "--surface"));
+  return static_cast<render::SurfaceForm>(index_of_word(surface, kSurfaces, "--surface"));
 }
 
 RenderBackend RenderOptions::chosen_backend() const {
-  return static_cast<RenderBackend>(index_of(backend, kBackends, "--backend"));
+  return static_cast<RenderBackend>(index_of_word(backend, kBackends, "--backend"));
 }
 
 void RenderOptions::check() const {
