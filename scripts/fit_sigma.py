@@ -36,8 +36,8 @@ SEEDS = (1, 2)
 
 # Where the search begins, in the order of sigma_parameters.h: level, step, offset, excess, bend, cost | level, cost, undecided | level, cost, undecided |
 # at edges: level, difference, margin | level, difference, undecided, excess | level.
-START = [-0.538, 0.416, 0.176, -0.343, -0.446, -0.833, 0.861, 2.78, 0.984, -0.981, 0.751, 0.371,
-         -0.2, -0.2, -0.4, 0.55, 2.4, 0, 2, -0.4]
+START = [-0.531, 0.414, 0.166, -0.439, -0.411, -1.014, 0.632, 3.826, 1.121, -0.674, 0.279, 0.28,
+         -0.224, -0.151, -0.315, 0.639, 3.901, -1.186, 1.963, -0.526]
 STEP = [0.1, 0.05, 0.03, 0.1, 0.08, 0.15, 0.2, 0.5, 0.4, 0.15, 0.3, 0.5, 0.15, 0.15, 0.08, 0.4, 0.4, 0.5, 0.3, 0.2]
 
 # Where coverage should lie, of one sigma and of 1.96: overall, and in each part; narrower than the bars of the tests.

@@ -11,7 +11,7 @@ namespace skysweep::sweep {
 struct SigmaOfDoubtless {
   double level, step, offset, excess, bend, cost;
 };
-inline constexpr SigmaOfDoubtless kSigmaOfDoubtless = {-0.533, 0.415, 0.165, -0.433, -0.409, -1.021};
+inline constexpr SigmaOfDoubtless kSigmaOfDoubtless = {-0.531, 0.414, 0.166, -0.439, -0.411, -1.014};
 
 // No height is better than so many pixels, not fitted: on level ground without noise the signs promise more than the
 // fit between planes holds (tests/hard, HardBaseline).
@@ -21,27 +21,27 @@ inline constexpr double kBestPixels = 0.07;
 struct Doubt {
   double level, cost, undecided;
 };
-inline constexpr Doubt kDoubt = {0.66, 3.787, 0.896};
+inline constexpr Doubt kDoubt = {0.632, 3.826, 1.121};
 
 // ln (sigma / step) where they do not.
 struct SigmaOfDoubtful {
   double level, cost, undecided;
 };
-inline constexpr SigmaOfDoubtful kSigmaOfDoubtful = {-0.774, 0.369, 0.349};
+inline constexpr SigmaOfDoubtful kSigmaOfDoubtful = {-0.674, 0.279, 0.28};
 
 // ln sigma of cells that chose between the surfaces of a step (edge_evidence.h).
 struct SigmaOfEdges {
   double level, difference, margin;
 };
-inline constexpr SigmaOfEdges kSigmaOfEdges = {-0.218, -0.313, -0.31};
+inline constexpr SigmaOfEdges kSigmaOfEdges = {-0.224, -0.151, -0.315};
 
 // Below which margin the choice may be wrong, where ln excess is small, too.
 struct EdgeDoubt {
   double level, difference, undecided, excess;
 };
-inline constexpr EdgeDoubt kEdgeDoubt = {0.481, 3.148, -0.55, 1.954};
+inline constexpr EdgeDoubt kEdgeDoubt = {0.639, 3.901, -1.186, 1.963};
 
 // ln (sigma / step) of those.
-inline constexpr double kEdgeStep = -0.549;
+inline constexpr double kEdgeStep = -0.526;
 
 }  // namespace skysweep::sweep
