@@ -87,7 +87,8 @@ std::string prometheus_text(const Status& s) {
          {{"", static_cast<double>(s.troubles.size())}});
   if (s.median_seconds_to_tiles)
     metric(text, "skysweep_watch_median_seconds_to_tiles", "gauge",
-           "Median time from a complete photograph to its tiles on disk.", {{"", *s.median_seconds_to_tiles}});
+           "Median time from a complete photograph with its pose to its tiles on disk.",
+           {{"", *s.median_seconds_to_tiles}});
   std::vector<std::pair<std::string, double>> tiles;
   for (const GroupStatus& group : s.groups)
     tiles.emplace_back("{group=\"" + label_value(group.name) + "\"}", static_cast<double>(group.tiles_computed));

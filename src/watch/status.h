@@ -29,7 +29,7 @@ struct Status {
   long long batches = 0;
   std::string stage;  // of the batch in work, with units done and to do
   int stage_done = 0, stage_total = 0;
-  std::optional<double> median_seconds_to_tiles;  // from a photograph complete to its tiles on disk
+  std::optional<double> median_seconds_to_tiles;  // from a photograph and its pose to its tiles
   std::vector<std::string> troubles;              // sentences: pose files that cannot be read and the like
   std::vector<GroupStatus> groups;
 };

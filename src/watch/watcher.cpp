@@ -34,9 +34,13 @@ constexpr std::size_t kMeasured = 1000;  // photographs whose waiting counts in 
 
 struct Photo {
   std::string problem;            // why the file cannot be used; empty if it can
-  double complete_s = 0;          // since 1970
+  double complete_s = 0;          // since 1970, as all times here
+  std::optional<double> posed_s;  // at the latest: its pose came between two looks at the poses
   std::optional<double> taken_s;  // for grouping by time
 };
+
+// When both the photograph and its pose were there.
+double time_of_readiness(const Photo& photo) { return std::max(photo.complete_s, photo.posed_s.value_or(0)); }
 
 // When the file got the bytes it has, as far as this watcher can know.
 double time_of_change(const fs::path& path, double earliest_s, double now_s) {
@@ -181,7 +185,7 @@ struct Watcher::State {
     } catch (const Error& error) {
       photo.problem = error.what();
     }
-    photos[name] = photo;
+    photos[name] = photo;  // without posed_s: what was sent again is on its way again
     touched.insert(name);
     changed = true;
   }
@@ -199,6 +203,7 @@ struct Watcher::State {
     for (const std::string& name : usable) {
       const auto posed = pairing.posed.find(name);
       if (posed == pairing.posed.end()) continue;
+      if (Photo& photo = photos[name]; !photo.posed_s) photo.posed_s = looked_at_poses_s;
       const Vec3d center = posed->second.pose.center + request.run.origin;
       if (!grouping.place({name, photos[name].taken_s, center}))
         without_time[name] = (folder / name).string() +
@@ -285,7 +290,7 @@ struct Watcher::State {
       if (image.status == index::ImageStatus::refused) group.refused[image.name] = image.reason;
     const double now_s = around.time_s();
     for (const std::string& photograph : group.due)
-      if (!group.refused.contains(photograph)) waited_s.push_back(now_s - photos[photograph].complete_s);
+      if (!group.refused.contains(photograph)) waited_s.push_back(now_s - time_of_readiness(photos[photograph]));
     while (waited_s.size() > kMeasured) waited_s.pop_front();
     group.due.clear();
     group.stale = false;
@@ -389,6 +394,7 @@ struct Watcher::State {
   int looks_to_go = 2;  // until what lay there before has settled
   double next_look_s = 0, last_change_s = 0;
   const double started_s;
+  double looked_at_poses_s = started_s;  // the time before the last, which poses read at the last may have come after
 };
 
 Watcher::Watcher(WatchRequest request, Surroundings surroundings)
@@ -402,8 +408,10 @@ void Watcher::round(const std::atomic<bool>& stop) {
   s.take_in_events(s.has_work() || stop ? 0 : std::min(kTick_s, until_look_s));
   s.look_if_due();
   s.examine_changes();
+  const double looked_s = s.around.time_s();
   if (s.poses.refresh(s.around.now_s(), s.request.once)) s.changed = true;
   if (s.changed) s.regroup();
+  s.looked_at_poses_s = looked_s;
   if (stop) return;
   if (const auto ready = s.next_ready(); ready != s.groups.end())
     s.map(ready->first, ready->second, stop);

@@ -91,9 +91,9 @@ double seconds_now() { return std::chrono::duration<double>(SteadyClock::now().t
 // One line on stderr: over and over on a terminal; in a log when it says something else, but not for every file.
 class StatusLine {
  public:
-  void show(const watch::Status& status) {
+  void show(const watch::Status& status, bool is_last = false) {
     const std::string line = printable(watch::status_line(status));
-    const bool too_soon = !terminal_ && status.state == state_ && seconds_now() - shown_s_ < kLogInterval_s;
+    const bool too_soon = !terminal_ && !is_last && status.state == state_ && seconds_now() - shown_s_ < kLogInterval_s;
     if (line == last_ || too_soon) return;
     last_ = line;
     state_ = status.state;
@@ -133,6 +133,7 @@ int watch_folder(const WatchOptions& options) {
   if (options.metrics) metrics.emplace(*options.metrics, [&] { return watch::prometheus_text(watcher.status()); });
   StatusLine line;
   watch::watch(watcher, options.once, stop, reload, [&] { line.show(watcher.status()); });
+  line.show(watcher.status(), true);
   return 0;
 }
 
