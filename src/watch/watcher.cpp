@@ -155,6 +155,7 @@ struct Watcher::State {
       for (const auto& [name, stamp] : *found)
         if (file_kind(name) == FileKind::poses) poses.arrived(name);
       if (looks_to_go > 0) --looks_to_go;
+      knows_folder = knows_folder || looks_to_go == 0;
     }
     had_events = events->tells();
     next_look_s = around.now_s() + look_interval();
@@ -244,7 +245,8 @@ struct Watcher::State {
   std::map<std::string, GroupMap>::iterator next_ready() {
     // The one that has waited longest, so that a busy group keeps nobody out.
     auto next = groups.end();
-    for (auto it = groups.begin(); away.empty() && it != groups.end(); ++it)
+    const bool may_begin = knows_folder && away.empty();
+    for (auto it = groups.begin(); may_begin && it != groups.end(); ++it)
       if (it->second.ready(first(), around.now_s()) &&
           (next == groups.end() || it->second.last_batch < next->second.last_batch))
         next = it;
@@ -271,9 +273,9 @@ struct Watcher::State {
       if (error.kind() == ErrorKind::usage || (request.once && error.kind() == ErrorKind::failed)) throw;
       group.trouble = error.what();
       board.warn(name + ": " + error.what());
-      group.retry_s = around.now_s() + kRetry_s;
       // What is wrong with the photographs does not change by waiting.
       group.stale = error.kind() == ErrorKind::failed;
+      if (group.stale) group.retry_s = around.now_s() + kRetry_s;
     }
     mapping.clear();
     board.end_of_batch();
@@ -337,7 +339,7 @@ struct Watcher::State {
   void publish() {
     const std::map<std::string, std::string> bad = quarantine();
     // After a start the old table stands until every file has been looked at again.
-    if (looks_to_go == 0 && next_ready() == groups.end())
+    if (knows_folder && next_ready() == groups.end())
       write_if_other(quarantine_file(), quarantine_text(bad), quarantine_written);
     Status s;
     s.state = !mapping.empty() ? "mapping " + mapping : away.empty() ? "waiting" : away;
@@ -392,6 +394,8 @@ struct Watcher::State {
   std::deque<double> waited_s;
   long long batches = 0, begun = 0;
   int looks_to_go = 2;  // until what lay there before has settled
+  // What lay there when the watcher began has been taken in. A map made before would lose what nobody has told of yet.
+  bool knows_folder = false;
   double next_look_s = 0, last_change_s = 0;
   const double started_s;
   double looked_at_poses_s = started_s;  // the time before the last, which poses read at the last may have come after

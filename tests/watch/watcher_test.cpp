@@ -143,6 +143,15 @@ TEST_F(WatcherTest, what_lies_there_is_taken_when_two_looks_found_it_the_same) {
   EXPECT_TRUE(watcher().idle() || mapper.finished.empty());
 }
 
+TEST_F(WatcherTest, what_arrives_first_waits_for_what_was_there_before) {
+  for (const char* name : {"a.png", "b.png"}) photo(name);
+  poses(pose("a.png") + pose("b.png") + pose("c.png") + pose("d.png"));
+  for (const char* name : {"c.png", "d.png"}) photo_arrives(name);
+  rounds(4);
+  EXPECT_EQ(mapper.batches, (std::vector<Batch>{{"map", {"a.png", "b.png", "c.png", "d.png"}}}))
+      << "a map of c and d alone would take a and b out of the project";
+}
+
 TEST_F(WatcherTest, a_batch_holds_all_that_arrived_while_the_last_was_in_work) {
   poses(pose("a.png") + pose("b.png") + pose("c.png") + pose("d.png"));
   rounds(3);
