@@ -277,8 +277,7 @@ def feed(sender, watcher, program, root, looks, chance, pace_s, port):
     """All jobs, with looks, a stop, a kill and a reload at random places between them. Returns how many looks saw
     something."""
     jobs = sender.jobs()
-    places = range(len(jobs))
-    looking = sorted(chance.choices(places, k=looks))
+    looking = chance.choices(range(len(jobs) // 3, len(jobs)), k=looks)  # before there is little to see
     stopping, killing, reloading = chance.sample(range(len(jobs) // 4, 3 * len(jobs) // 4), 3)
     seen = 0
     for i, (_, act, argument) in enumerate(jobs):

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "watch/file_kind.h"
+
 namespace skysweep::watch {
 
 void Arrivals::complete(const std::string& name, File& file, const std::string& stamp) {
@@ -41,6 +43,11 @@ Arrivals::Changes Arrivals::take_changes() {
   for (const auto& [name, is_there] : changed_) (is_there ? changes.complete : changes.gone).push_back(name);
   changed_.clear();
   return changes;
+}
+
+bool Arrivals::knows_photographs() const {
+  return std::any_of(files_.begin(), files_.end(),
+                     [](const auto& entry) { return file_kind(entry.first) == FileKind::photograph; });
 }
 
 int Arrivals::unsettled() const {

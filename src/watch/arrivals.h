@@ -29,6 +29,7 @@ class Arrivals {
 
   int unsettled() const;  // files that are there and not complete
   std::size_t known() const { return files_.size(); }
+  bool knows_photographs() const;
 
  private:
   struct File {

@@ -8,15 +8,20 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "formats/time_taken.h"
 #include "pipeline/project.h"
+#include "pipeline/project_lock.h"
 #include "raster/atomic_file.h"
-#include "raster/file_stamp.h"
 #include "raster/photo.h"
 #include "watch/file_kind.h"
+#include "watch/followed_folder.h"
 #include "watch/group_map.h"
+#include "watch/pose_book.h"
 #include "watch/quarantine.h"
 #include "watch/status_board.h"
 
@@ -26,8 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTick_s = 1;            // a signal that comes in just before a wait is seen after so long
-constexpr double kLooksApart_s = 1;      // two looks that settle what no event told
-constexpr double kSafetyLook_s = 30;     // beside events, in case one was lost
 constexpr double kRetry_s = 10;          // after a full disk, a locked project, a folder that went away
 constexpr double kQuiet_s = 10;          // before mosaics are written: more may be on its way
 constexpr std::size_t kMeasured = 1000;  // photographs whose waiting counts in the median
@@ -77,13 +80,12 @@ struct Watcher::State {
         settings(effective_settings()),
         lock(checked_root()),
         board(root / "status.json", around.progress, around.time_s),
+        followed(folder, around.open_events, around.now_s, settings.poll_s),
         poses(folder, given_poses(request.run)),
         grouping(settings.group, settings.gap()),
         started_s(around.time_s()) {
     grouping.restore(text_of_file(groups_file()));
     quarantine_written = text_of_file(quarantine_file());
-    open_events();
-    next_look_s = around.now_s();
   }
 
   fs::path groups_file() const { return root / "groups.csv"; }
@@ -106,65 +108,14 @@ struct Watcher::State {
     throw usage_error("--poses of watch takes a file, and " + request.run.poses.string() + " is a folder.");
   }
 
-  void open_events() {
-    events = settings.poll_s ? nullptr : around.open_events();
-    if (!events) events = no_events();
-    looks_to_go = 2;
-  }
-
-  double look_interval() const {
-    if (settings.poll_s) return *settings.poll_s;
-    return events->tells() && looks_to_go == 0 ? kSafetyLook_s : kLooksApart_s;
-  }
-
   // ---- what arrives
 
-  void take_in_events(double wait_s) {
-    for (const FileEvent& event : events->wait(wait_s)) {
-      if (event.kind == FileEvent::Kind::lost) {
-        looks_to_go = 2;
-        next_look_s = std::min(next_look_s, around.now_s());
-      } else if (file_kind(event.name) != FileKind::other) {
-        take_in(event);
-      }
-    }
-  }
-
-  void take_in(const FileEvent& event) {
-    if (event.kind == FileEvent::Kind::gone) return arrivals.gone(event.name);
-    if (event.kind == FileEvent::Kind::written) return arrivals.written(event.name);
-    if (const auto stamp = raster::file_stamp(folder / event.name)) arrivals.closed(event.name, *stamp);
-  }
-
-  void look_if_due() {
-    if (around.now_s() < next_look_s) return;
-    const std::optional<FolderLook> found = look_at_folder(folder);
-    const bool emptied = found && !photos.empty() && std::none_of(found->begin(), found->end(), [](const auto& file) {
-                           return file_kind(file.first) == FileKind::photograph;
-                         });
-    if (!found || emptied) {
-      away = "The folder " + folder.string() + (found ? " holds no photograph any more" : " is not there") +
-             ": the maps stay as they are until it is back.";
-      board.warn(away);
-      looks_to_go = 2;
-    } else {
-      if (!away.empty() || (!settings.poll_s && !events->tells() && had_events)) open_events();
-      away.clear();
-      arrivals.look(*found);
-      // A growing file of poses is looked into without waiting for its end.
-      for (const auto& [name, stamp] : *found)
-        if (file_kind(name) == FileKind::poses) poses.arrived(name);
-      if (looks_to_go > 0) --looks_to_go;
-      knows_folder = knows_folder || looks_to_go == 0;
-    }
-    had_events = events->tells();
-    next_look_s = around.now_s() + look_interval();
-  }
-
   void examine_changes() {
-    const Arrivals::Changes changes = arrivals.take_changes();
-    for (const std::string& name : changes.gone) forget(name);
-    for (const std::string& name : changes.complete) examine(name);
+    const FollowedFolder::News news = followed.take_news();
+    for (const std::string& name : news.pose_files) poses.arrived(name);
+    for (const std::string& name : news.files.gone) forget(name);
+    for (const std::string& name : news.files.complete) examine(name);
+    if (!followed.away().empty()) board.warn(followed.away());
   }
 
   void forget(const std::string& name) {
@@ -245,7 +196,8 @@ struct Watcher::State {
   std::map<std::string, GroupMap>::iterator next_ready() {
     // The one that has waited longest, so that a busy group keeps nobody out.
     auto next = groups.end();
-    const bool may_begin = knows_folder && away.empty();
+    // A map of what arrived before the rest was known would lose that rest.
+    const bool may_begin = followed.is_known() && followed.away().empty();
     for (auto it = groups.begin(); may_begin && it != groups.end(); ++it)
       if (it->second.ready(first(), around.now_s()) &&
           (next == groups.end() || it->second.last_batch < next->second.last_batch))
@@ -339,20 +291,20 @@ struct Watcher::State {
   void publish() {
     const std::map<std::string, std::string> bad = quarantine();
     // After a start the old table stands until every file has been looked at again.
-    if (knows_folder && next_ready() == groups.end())
+    if (followed.is_known() && next_ready() == groups.end())
       write_if_other(quarantine_file(), quarantine_text(bad), quarantine_written);
     Status s;
-    s.state = !mapping.empty() ? "mapping " + mapping : away.empty() ? "waiting" : away;
-    s.looks_by = events->tells() ? "events" : "polling";
+    s.state = !mapping.empty() ? "mapping " + mapping : followed.away().empty() ? "waiting" : followed.away();
+    s.looks_by = followed.has_events() ? "events" : "polling";
     s.photographs = static_cast<int>(
         std::count_if(photos.begin(), photos.end(), [](const auto& photo) { return photo.second.problem.empty(); }));
-    s.arriving = arrivals.unsettled();
+    s.arriving = followed.arriving();
     s.waiting_for_pose = static_cast<int>(pairing.waiting.size());
     s.poses_waiting = static_cast<int>(pairing.poses_waiting);
     s.quarantined = static_cast<int>(bad.size());
     s.batches = batches;
     s.troubles = poses.problems();
-    if (!away.empty()) s.troubles.push_back(away);
+    if (!followed.away().empty()) s.troubles.push_back(followed.away());
     if (!settings_trouble.empty()) s.troubles.push_back(settings_trouble);
     for (const auto& [name, group] : groups) {
       s.due += static_cast<int>(group.due.size());
@@ -376,9 +328,7 @@ struct Watcher::State {
   WatchSettings settings;
   pipeline::ProjectLock lock;
   StatusBoard board;
-  std::unique_ptr<FolderEvents> events;
-  bool had_events = false;
-  Arrivals arrivals;
+  FollowedFolder followed;
   PoseBook poses;
   Grouping grouping;
   std::map<std::string, Photo> photos;  // complete ones
@@ -389,14 +339,10 @@ struct Watcher::State {
   std::map<std::string, GroupMap> groups;
   std::string groups_written, quarantine_written;
   std::string mapping;  // the group in work
-  std::string away;     // a sentence while the folder is not there
   std::string settings_trouble;
   std::deque<double> waited_s;
   long long batches = 0, begun = 0;
-  int looks_to_go = 2;  // until what lay there before has settled
-  // What lay there when the watcher began has been taken in. A map made before would lose what nobody has told of yet.
-  bool knows_folder = false;
-  double next_look_s = 0, last_change_s = 0;
+  double last_change_s = 0;
   const double started_s;
   double looked_at_poses_s = started_s;  // the time before the last, which poses read at the last may have come after
 };
@@ -408,9 +354,7 @@ Watcher::~Watcher() = default;
 
 void Watcher::round(const std::atomic<bool>& stop) {
   State& s = *state_;
-  const double until_look_s = std::max(0.0, s.next_look_s - s.around.now_s());
-  s.take_in_events(s.has_work() || stop ? 0 : std::min(kTick_s, until_look_s));
-  s.look_if_due();
+  s.followed.take_in(s.has_work() || stop ? 0 : kTick_s);
   s.examine_changes();
   const double looked_s = s.around.time_s();
   if (s.poses.refresh(s.around.now_s(), s.request.once)) s.changed = true;
@@ -434,8 +378,7 @@ void Watcher::reload() {
     s.settings_trouble = std::string(error.what()) + " The settings stay as they were.";
     s.board.warn(s.settings_trouble);
   }
-  s.open_events();
-  s.next_look_s = s.around.now_s();
+  s.followed.open(s.settings.poll_s);
   for (auto& [name, photo] : s.photos)
     if (s.settings.group == GroupRule::time && !photo.taken_s) s.examine(name);
   for (auto& [name, group] : s.groups) {
@@ -447,7 +390,7 @@ void Watcher::reload() {
 
 bool Watcher::idle() const {
   State& s = *state_;
-  return s.looks_to_go == 0 && s.arrivals.unsettled() == 0 && !s.changed && !s.has_work();
+  return s.followed.is_settled() && !s.changed && !s.has_work();
 }
 
 Status Watcher::status() const { return state_->board.status(); }

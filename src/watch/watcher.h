@@ -11,17 +11,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
-#include <string>
-#include <vector>
 
 #include "pipeline/progress.h"
-#include "pipeline/project_lock.h"
 #include "pipeline/session.h"
-#include "watch/arrivals.h"
 #include "watch/folder_events.h"
-#include "watch/grouping.h"
-#include "watch/pose_book.h"
 #include "watch/status.h"
 #include "watch/watch_settings.h"
 

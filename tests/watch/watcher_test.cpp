@@ -178,6 +178,15 @@ TEST_F(WatcherTest, photographs_wait_for_poses_and_are_counted) {
   EXPECT_EQ(watcher().status().poses_waiting, 1);
 }
 
+TEST_F(WatcherTest, poses_that_a_logger_keeps_open_are_read_as_they_come) {
+  rounds(3);
+  for (const char* name : {"a.png", "b.png"}) photo_arrives(name);
+  poses(pose("a.png") + pose("b.png") + "half.png,1");
+  queue.push_back({FileEvent::Kind::written, "poses.csv"});
+  rounds(2);
+  EXPECT_EQ(mapper.batches, (std::vector<Batch>{{"map", {"a.png", "b.png"}}}));
+}
+
 TEST_F(WatcherTest, a_corrected_pose_and_a_file_sent_again_are_batches_of_their_own) {
   for (const char* name : {"a.png", "b.png"}) photo(name);
   poses(pose("a.png") + pose("b.png"));
