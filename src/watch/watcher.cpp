@@ -244,7 +244,8 @@ struct Watcher::State {
       if (image.status == index::ImageStatus::refused) group.refused[image.name] = image.reason;
     const double now_s = around.time_s();
     for (const std::string& photograph : group.due)
-      if (!group.refused.contains(photograph)) waited_s.push_back(now_s - time_of_readiness(photos[photograph]));
+      if (!group.refused.contains(photograph))
+        waited_s.push_back(std::max(0.0, now_s - time_of_readiness(photos[photograph])));
     while (waited_s.size() > kMeasured) waited_s.pop_front();
     group.due.clear();
     group.stale = false;

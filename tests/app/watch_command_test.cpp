@@ -134,6 +134,15 @@ TEST_F(WatchCommand, wrong_values_are_refused_in_the_first_second) {
   EXPECT_EQ(skysweep({"watch", images(), "-o", images() / "maps"}).exit_code, 2);
 }
 
+TEST_F(WatchCommand, a_full_disk_is_said_and_nothing_is_lost) {
+  Process on_full_disk(arguments({"--once"}), 8000);
+  const Outcome outcome = on_full_disk.wait();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, {"cannot"})) << outcome.err;
+  ASSERT_EQ(once().exit_code, 0);
+  expect_map(maps() / "map", kPhotographs);
+}
+
 TEST_F(WatchCommand, a_project_that_was_made_with_other_settings_is_named) {
   ASSERT_EQ(once().exit_code, 0);
   Arguments other = arguments({"--once"});

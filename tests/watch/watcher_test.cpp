@@ -165,6 +165,22 @@ TEST_F(WatcherTest, a_batch_holds_all_that_arrived_while_the_last_was_in_work) {
             (std::vector<Batch>{{"map", {"a.png", "b.png"}}, {"map", {"a.png", "b.png", "c.png", "d.png"}}}));
 }
 
+TEST_F(WatcherTest, ten_thousand_files_dropped_at_once_are_one_batch) {
+  rounds(3);
+  std::string lines;
+  for (int i = 0; i < 10000; ++i) {
+    const std::string name = "drop/" + std::to_string(i) + ".png";
+    photo(name);
+    lines += pose(name, i);
+  }
+  poses(lines);
+  queue.push_back({FileEvent::Kind::lost, ""});  // more than the kernel's queue holds
+  rounds(4);
+  ASSERT_EQ(mapper.batches.size(), 1u);
+  EXPECT_EQ(mapper.batches.front().photographs.size(), 10000u);
+  EXPECT_EQ(watcher().status().mapped, 10000);
+}
+
 TEST_F(WatcherTest, photographs_wait_for_poses_and_are_counted) {
   rounds(3);
   for (const char* name : {"a.png", "b.png", "c.png"}) photo_arrives(name);
