@@ -45,6 +45,11 @@ Arrivals::Changes Arrivals::take_changes() {
   return changes;
 }
 
+bool Arrivals::is_arriving(const std::string& name) const {
+  const auto found = files_.find(name);
+  return found != files_.end() && !found->second.complete;
+}
+
 bool Arrivals::knows_photographs() const {
   return std::any_of(files_.begin(), files_.end(),
                      [](const auto& entry) { return file_kind(entry.first) == FileKind::photograph; });

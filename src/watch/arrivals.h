@@ -27,7 +27,8 @@ class Arrivals {
   };
   Changes take_changes();
 
-  int unsettled() const;  // files that are there and not complete
+  int unsettled() const;                            // files that are there and not complete
+  bool is_arriving(const std::string& name) const;  // there, and not complete (any more)
   std::size_t known() const { return files_.size(); }
   bool knows_photographs() const;
 

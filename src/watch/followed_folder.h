@@ -41,6 +41,7 @@ class FollowedFolder {
   bool is_known() const { return is_known_; }
   // Nothing is about to become complete.
   bool is_settled() const { return looks_to_go_ == 0 && arrivals_.unsettled() == 0; }
+  bool is_arriving(const std::string& name) const { return arrivals_.is_arriving(name); }
   int arriving() const { return arrivals_.unsettled(); }
   bool has_events() const { return events_->tells(); }
 

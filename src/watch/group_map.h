@@ -20,6 +20,7 @@ struct GroupMap {
   bool mapped = false;                         // by this watcher
   bool has_project = false;                    // on disk, perhaps from before
   double retry_s = 0;                          // not before
+  std::optional<double> held_since_s;          // a member is being sent again
   std::string trouble;                         // why the last batch was none
   std::string left_because;                    // why it has no members any more
   std::map<std::string, std::string> refused;  // by the last batch

@@ -33,6 +33,7 @@ namespace fs = std::filesystem;
 constexpr double kTick_s = 1;            // a signal that comes in just before a wait is seen after so long
 constexpr double kRetry_s = 10;          // after a full disk, a locked project, a folder that went away
 constexpr double kQuiet_s = 10;          // before mosaics are written: more may be on its way
+constexpr double kHeld_s = 10;           // a batch waits for a photograph that is being sent again
 constexpr std::size_t kMeasured = 1000;  // photographs whose waiting counts in the median
 
 struct Photo {
@@ -199,10 +200,23 @@ struct Watcher::State {
     // A map of what arrived before the rest was known would lose that rest.
     const bool may_begin = followed.is_known() && followed.away().empty();
     for (auto it = groups.begin(); may_begin && it != groups.end(); ++it)
-      if (it->second.ready(first(), around.now_s()) &&
+      if (it->second.ready(first(), around.now_s()) && !held(it->second) &&
           (next == groups.end() || it->second.last_batch < next->second.last_batch))
         next = it;
     return next;
+  }
+
+  // While a photograph of the map is being sent again its tiles would be made without it. A sender that never comes to
+  // an end does not hold the others up for ever.
+  bool held(GroupMap& group) {
+    const bool resent = std::any_of(group.members.begin(), group.members.end(),
+                                    [&](const auto& member) { return followed.is_arriving(member.first); });
+    if (!resent) {
+      group.held_since_s.reset();
+      return false;
+    }
+    if (!group.held_since_s) group.held_since_s = around.now_s();
+    return around.now_s() - *group.held_since_s < kHeld_s;
   }
 
   std::map<std::string, GroupMap>::iterator next_unfinished() {

@@ -216,6 +216,27 @@ TEST_F(WatcherTest, a_corrected_pose_and_a_file_sent_again_are_batches_of_their_
   EXPECT_EQ(mapper.batches.size(), 3u) << "its tiles may have been made while it was half there";
 }
 
+TEST_F(WatcherTest, a_batch_waits_for_a_photograph_that_is_being_sent_again_but_not_for_ever) {
+  poses(pose("a.png") + pose("b.png") + pose("c.png") + pose("d.png"));
+  for (const char* name : {"a.png", "b.png"}) photo(name);
+  rounds(3);
+  ASSERT_EQ(mapper.batches.size(), 1u);
+  queue.push_back({FileEvent::Kind::written, "a.png"});
+  photo_arrives("c.png");
+  rounds(3);
+  EXPECT_EQ(mapper.batches.size(), 1u) << "its tiles would be made without a";
+  photo_arrives("a.png");
+  rounds(1);
+  EXPECT_EQ(mapper.batches.size(), 2u);
+
+  queue.push_back({FileEvent::Kind::written, "a.png"});
+  photo_arrives("d.png");
+  rounds(9);
+  EXPECT_EQ(mapper.batches.size(), 2u);
+  rounds(3);
+  EXPECT_EQ(mapper.batches.size(), 3u);
+}
+
 TEST_F(WatcherTest, a_map_is_begun_with_enough_photographs) {
   request.settings.first = 3;
   poses(pose("a.png") + pose("b.png") + pose("c.png"));
