@@ -55,14 +55,14 @@ double time_of_change(const fs::path& path, double earliest_s, double now_s) {
   return std::clamp(changed_s, std::min(earliest_s, now_s), now_s);
 }
 
-bool lies_in(const fs::path& inner, const fs::path& outer) {
-  const fs::path relative = inner.lexically_relative(outer);
-  return !relative.empty() && *relative.begin() != "..";
-}
-
 std::string text_of_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+const fs::path& sensible_root(const WatchRequest& request) {
+  require_sensible_folders(request);
+  return request.run.project;
 }
 
 std::optional<fs::path> given_poses(const pipeline::RunRequest& run) {
@@ -78,8 +78,8 @@ struct Watcher::State {
         around(std::move(s)),
         folder(request.run.images),
         root(request.run.project),
-        settings(effective_settings()),
-        lock(checked_root()),
+        settings(effective_settings(request)),
+        lock(sensible_root(request)),
         board(root / "status.json", around.progress, around.time_s),
         followed(folder, around.open_events, around.now_s, settings.poll_s),
         poses(folder, given_poses(request.run)),
@@ -91,23 +91,6 @@ struct Watcher::State {
 
   fs::path groups_file() const { return root / "groups.csv"; }
   fs::path quarantine_file() const { return root / "quarantine.csv"; }
-
-  WatchSettings effective_settings() const {
-    if (const auto problem = request.settings.problem()) throw usage_error("Watching: " + *problem + ".");
-    return request.settings_file ? with_file(request.settings, *request.settings_file) : request.settings;
-  }
-
-  const fs::path& checked_root() const {
-    std::error_code error;
-    if (!fs::is_directory(folder, error))
-      throw usage_error("The folder to watch, " + folder.string() + ", does not exist; make it first.");
-    const fs::path from = fs::weakly_canonical(folder, error), to = fs::weakly_canonical(root, error);
-    if (lies_in(to, from) || lies_in(from, to))
-      throw usage_error("The maps' folder " + root.string() + " and the folder watched, " + folder.string() +
-                        ", must not lie in one another.");
-    if (request.run.poses.empty() || !fs::is_directory(request.run.poses, error)) return root;
-    throw usage_error("--poses of watch takes a file, and " + request.run.poses.string() + " is a folder.");
-  }
 
   // ---- what arrives
 
@@ -386,7 +369,7 @@ void Watcher::round(const std::atomic<bool>& stop) {
 void Watcher::reload() {
   State& s = *state_;
   try {
-    s.settings = s.effective_settings();
+    s.settings = effective_settings(s.request);
     s.settings_trouble.clear();
     s.grouping.use(s.settings.group, s.settings.gap());
   } catch (const Error& error) {

@@ -7,27 +7,16 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 
 #include "pipeline/progress.h"
 #include "pipeline/session.h"
 #include "watch/folder_events.h"
 #include "watch/status.h"
-#include "watch/watch_settings.h"
+#include "watch/watch_request.h"
 
 namespace skysweep::watch {
-
-struct WatchRequest {
-  // `images` is the folder watched, `project` the root: each group's project lies in a folder of it. `poses`, if not
-  // empty, is read instead of the folder's poses.csv. The rest goes to every group's run.
-  pipeline::RunRequest run;
-  WatchSettings settings;                              // before the file
-  std::optional<std::filesystem::path> settings_file;  // read again by reload()
-  bool once = false;                                   // whatever is there makes a map, and nothing more is waited for
-};
 
 // Makes the maps.
 class Mapper {
