@@ -15,7 +15,24 @@ void on_signal(int) {
   if (requested.exchange(true)) _exit(kExitInterrupted);
 }
 
+std::atomic<bool> reload{false};
+
+void on_hangup(int) { reload = true; }
+
 }  // namespace
+
+std::atomic<bool>& reload_requested() {
+  static const bool installed = [] {
+    struct sigaction action {};
+    action.sa_handler = on_hangup;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGHUP, &action, nullptr);
+    return true;
+  }();
+  static_cast<void>(installed);
+  return reload;
+}
 
 const std::atomic<bool>& interrupt_requested() {
   static const bool installed = [] {

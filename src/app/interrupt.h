@@ -10,6 +10,9 @@ namespace skysweep::app {
 // Becomes true at the first signal. Installs the handlers when first called.
 const std::atomic<bool>& interrupt_requested();
 
+// Becomes true at SIGHUP; whoever sees it puts it back. Installs the handler when first called.
+std::atomic<bool>& reload_requested();
+
 constexpr int kExitInterrupted = 130;
 
 }  // namespace skysweep::app

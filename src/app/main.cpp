@@ -21,6 +21,7 @@ int run_program(int argc, char** argv) {
   program.failure_message(CLI::FailureMessage::simple);
   app::ChosenCommand chosen;
   app::add_run_command(program, chosen);
+  app::add_watch_command(program, chosen);
   app::add_info_command(program, chosen);
   app::add_evaluate_command(program, chosen);
   app::add_sweep_command(program, chosen);

@@ -129,16 +129,17 @@ ImageMatches match_images(std::vector<std::string> photo_names, const PoseSet& s
     if (photo.partner && *photo.partner < usable)
       result.matches.push_back({photo.name, *photo.partner});
     else if (photo.partner)
-      result.photos_without_pose.push_back({photo.name, set.refused[*photo.partner - usable].reason});
+      result.photos_without_pose.push_back({photo.name, set.refused[*photo.partner - usable].reason, false});
     else if (!photo.ambiguity.empty())
-      result.photos_without_pose.push_back({photo.name, photo.ambiguity});
+      result.photos_without_pose.push_back({photo.name, photo.ambiguity, false});
     else
       result.photos_without_pose.push_back({photo.name, "The pose file has no pose for '" + photo.name + "'."});
   }
   for (std::size_t i = 0; i < usable; ++i) {
     if (poses[i].partner) continue;
     const std::string absent = set.images[i].where + ": there is no photograph '" + poses[i].name + "'.";
-    result.poses_without_photo.push_back({poses[i].name, poses[i].ambiguity.empty() ? absent : poses[i].ambiguity});
+    const bool unknown = poses[i].ambiguity.empty();
+    result.poses_without_photo.push_back({poses[i].name, unknown ? absent : poses[i].ambiguity, unknown});
   }
   return result;
 }

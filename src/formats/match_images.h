@@ -17,7 +17,8 @@ struct ImageMatch {
 
 struct Unmatched {
   std::string name;
-  std::string reason;  // a sentence
+  std::string reason;     // a sentence
+  bool is_absent = true;  // nothing of its name is known; else what is known cannot be used
 };
 
 struct ImageMatches {

@@ -109,7 +109,12 @@ PhotographSet collect_photographs(const std::filesystem::path& images, const std
   if (names.empty())
     throw bad_input("There are no photographs in " + images.string() +
                     " or its subfolders (JPEG, PNG, TIFF, WebP and BMP are read).");
-  formats::PoseSet poses = formats::read_poses(poses_path.string());
+  return inspect_photographs(images, names, formats::read_poses(poses_path.string()), origin, options, executor, known);
+}
+
+PhotographSet inspect_photographs(const std::filesystem::path& images, const std::vector<std::string>& names,
+                                  formats::PoseSet poses, Vec3d origin, const PhotographOptions& options,
+                                  Executor& executor, const std::vector<ImageRecord>& known) {
   formats::add_origin(poses, origin);
   const formats::ImageMatches matches = formats::match_images(names, poses);
 

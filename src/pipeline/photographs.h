@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/executor.h"
 #include "core/vec.h"
+#include "formats/pose_set.h"
 #include "index/image_record.h"
 #include "pipeline/configuration.h"
 
@@ -28,6 +29,11 @@ struct PhotographSet {
 PhotographSet collect_photographs(const std::filesystem::path& images, const std::filesystem::path& poses, Vec3d origin,
                                   const PhotographOptions& options, Executor& executor,
                                   const std::vector<index::ImageRecord>& known = {});
+
+// The same for photographs that somebody else has listed (`names`, relative to `images`) and poses already read.
+PhotographSet inspect_photographs(const std::filesystem::path& images, const std::vector<std::string>& names,
+                                  formats::PoseSet poses, Vec3d origin, const PhotographOptions& options,
+                                  Executor& executor, const std::vector<index::ImageRecord>& known = {});
 
 // "... is gone": says what to do about a photograph that was there a moment ago.
 Error photograph_vanished(const std::filesystem::path& path);

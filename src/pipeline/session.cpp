@@ -90,6 +90,15 @@ EarlierRuns look_at_earlier_runs(const RunRequest& request, const ProjectChoice&
   return earlier;
 }
 
+PhotographSet photographs_of(const RunRequest& request, const Configuration& configuration, Executor& executor,
+                             const std::vector<index::ImageRecord>& known) {
+  const PhotographOptions& options = configuration.photographs;
+  if (request.given)
+    return inspect_photographs(request.images, request.given->names, request.given->poses, request.origin, options,
+                               executor, known);
+  return collect_photographs(request.images, request.poses, request.origin, options, executor, known);
+}
+
 // What a run would do, without a trace.
 void plan_only(const RunRequest& request, const ProjectPaths& paths, const Coverage& coverage,
                std::optional<index::Catalogue>& catalogue, RunSummary& summary, Executor& executor) {
@@ -115,8 +124,7 @@ RunSummary run(const RunRequest& request, Progress& progress, const std::atomic<
   const std::optional<ProjectLock> lock = lock_for(request);
   const ProjectChoice choice = choose_project(request, paths);
   EarlierRuns earlier = look_at_earlier_runs(request, choice, paths, progress);
-  PhotographSet photographs = collect_photographs(request.images, request.poses, request.origin,
-                                                  choice.configuration.photographs, executor, earlier.images);
+  PhotographSet photographs = photographs_of(request, choice.configuration, executor, earlier.images);
   for (const std::string& note : photographs.notes) progress.note(note);
   for (const std::string& warning : photographs.warnings) progress.warn(warning);
   report_refusals(photographs.records, progress);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/box.h"
+#include "formats/pose_set.h"
 #include "index/image_record.h"
 #include "pipeline/memory_plan.h"
 #include "pipeline/progress.h"
@@ -16,9 +17,16 @@
 
 namespace skysweep::pipeline {
 
+// Photographs that somebody has already found and paired with their poses.
+struct GivenPhotographs {
+  std::vector<std::string> names;  // relative to RunRequest::images, as raster::list_photos has them
+  formats::PoseSet poses;
+};
+
 struct RunRequest {
   std::filesystem::path images;
   std::filesystem::path poses;
+  std::optional<GivenPhotographs> given;  // instead of all that `images` holds and of what `poses` says
   std::filesystem::path project;
   std::optional<std::string> crs;  // as the user names it; none: a local metric frame
   Vec3d origin;                    // added to the poses' positions

@@ -91,14 +91,25 @@ Array2d<Rgb8> rgb_from_bgr(const cv::Mat& image) {
 
 }  // namespace
 
-Array2d<Rgb8> read_photo(const fs::path& path) {
+namespace {
+
+// The whole file, with its end and a header that makes sense.
+std::string read_whole_photo(const fs::path& path) {
   constexpr std::uint64_t kMaxBytes = 1ull << 30;  // no photograph is larger; OpenCV counts bytes in an int
   const std::string bytes = read_bytes(path, kMaxBytes);
   const PhotoKind kind = readable_kind(path, bytes);
   if ((kind == PhotoKind::jpeg && !jpeg_is_complete(bytes)) || (kind == PhotoKind::png && !png_is_complete(bytes)))
     throw refused(path, "is cut off before its end: copy it from the camera again");
   read_photo_size(path);  // refuses broken headers, about which OpenCV would print
-  const cv::Mat image = decode(bytes);
+  return bytes;
+}
+
+}  // namespace
+
+void require_whole_photo(const fs::path& path) { read_whole_photo(path); }
+
+Array2d<Rgb8> read_photo(const fs::path& path) {
+  const cv::Mat image = decode(read_whole_photo(path));
   if (image.empty()) throw refused(path, "is damaged: it cannot be decoded");
   switch (image.type()) {
     case CV_8UC3: return rgb_from_bgr<std::uint8_t>(image);

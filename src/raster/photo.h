@@ -18,6 +18,9 @@ namespace skysweep::raster {
 // sentence says how).
 Array2d<Rgb8> read_photo(const std::filesystem::path& path);
 
+// Throws what `read_photo` would as far as that can be told without decoding: the file is read and walked to its end.
+void require_whole_photo(const std::filesystem::path& path);
+
 struct PhotoSize {
   int width_px = 0;
   int height_px = 0;
@@ -30,6 +33,9 @@ PhotoSize read_photo_size(const std::filesystem::path& path);
 // taken by their ending, in any case (jpg jpeg png tif tiff webp bmp; and heic heif dng and raw formats, so that they
 // can be refused by name); hidden files and folders are left out. Throws Error(bad_input) if the folder is missing.
 std::vector<std::string> list_photos(const std::filesystem::path& folder);
+
+// Whether `list_photos` would take a file of this name for a photograph; nothing is looked at.
+bool has_photo_name(const std::filesystem::path& path);
 
 // The bytes of an image in the format of the path's ending (PNG, JPEG, TIFF); nothing is written.
 std::string encode_image(const std::filesystem::path& path, const Array2d<Rgb8>& image, int jpeg_quality = 95);

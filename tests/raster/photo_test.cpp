@@ -112,8 +112,11 @@ TEST(Photo, jpeg_cut_off_at_any_byte_is_refused_quietly_by_name) {
     const std::string message = refusal_of(folder / "torn.jpg");
     EXPECT_NE(message.find("torn.jpg"), std::string::npos) << message;
   }
+  put_bytes(folder / "whole.jpg", whole);
+  EXPECT_NO_THROW(require_whole_photo(folder / "whole.jpg"));
   put_bytes(folder / "torn.jpg", whole.substr(0, whole.size() - 1));
   EXPECT_NE(refusal_of(folder / "torn.jpg").find("cut off"), std::string::npos);
+  EXPECT_THROW(require_whole_photo(folder / "torn.jpg"), Error) << "without decoding";
   // A card reader that gives up often fills the rest with zeros.
   put_bytes(folder / "torn.jpg", whole.substr(0, whole.size() / 2) + std::string(whole.size() / 2, '\0'));
   EXPECT_NE(refusal_of(folder / "torn.jpg").find("cut off"), std::string::npos);

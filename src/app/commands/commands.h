@@ -18,5 +18,6 @@ void add_sweep_command(CLI::App& program, ChosenCommand& chosen);
 void add_simulate_command(CLI::App& program, ChosenCommand& chosen);
 void add_export_command(CLI::App& program, ChosenCommand& chosen);
 void add_render_command(CLI::App& program, ChosenCommand& chosen);
+void add_watch_command(CLI::App& program, ChosenCommand& chosen);
 
 }  // namespace skysweep::app

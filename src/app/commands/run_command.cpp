@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <thread>
 
 #include "app/commands/commands.h"
+#include "app/commands/map_options.h"
 #include "app/console.h"
 #include "app/finish_run.h"
 #include "app/interrupt.h"
@@ -18,10 +18,8 @@ namespace {
 // The options as they stand on the command line.
 struct RunOptions {
   std::string images, project, poses;
-  std::optional<std::string> crs, origin, area, heights, preset, config, backend, memory;
-  std::optional<double> cell, dz;
-  int threads = 0;
-  bool no_fill = false, planar_fallback = false, fresh = false, strict = false, dry_run = false, json_log = false;
+  MapOptions map;
+  bool fresh = false, strict = false, dry_run = false, json_log = false;
   bool verify = false;
   std::vector<std::string> remove, restore;
 };
@@ -31,21 +29,7 @@ pipeline::RunRequest request_from(const RunOptions& options) {
   request.images = options.images;
   request.poses = options.poses;
   request.project = options.project;
-  request.crs = options.crs;
-  if (options.origin) request.origin = parse_origin(*options.origin);
-  if (options.cell) request.cell_m = require_positive(*options.cell, "--cell");
-  if (options.dz) request.dz_m = require_positive(*options.dz, "--dz");
-  if (options.area) request.area = parse_area(*options.area);
-  if (options.heights) request.heights = parse_height_range(*options.heights);
-  request.preset = options.preset;
-  if (options.config) request.config = *options.config;
-  if (options.backend) request.backend = parse_backend(*options.backend);
-  if (options.memory) request.memory_bytes = parse_memory(*options.memory);
-  if (options.threads < 0) throw usage_error("--threads must be a positive number.");
-  request.threads =
-      options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  request.no_fill = options.no_fill;
-  request.planar_fallback = options.planar_fallback;
+  apply(options.map, request);
   request.fresh = options.fresh;
   request.dry_run = options.dry_run;
   request.verify = options.verify;
@@ -104,23 +88,7 @@ void add_run_command(CLI::App& program, ChosenCommand& chosen) {
       ->add_option("--poses", o->poses,
                    "poses.csv, a COLMAP model folder (text or binary) or an OpenSfM/ODM reconstruction.json")
       ->required();
-  command->add_option("--crs", o->crs, "CRS of the map, e.g. EPSG:32632; none: a local metric frame");
-  command->add_option("--origin", o->origin, "X,Y,Z added to the poses' positions to reach the CRS");
-  command->add_option("--cell", o->cell, "Side of an output cell in metres (default: the photographs' median GSD)");
-  command->add_option("--dz", o->dz, "Distance of height planes in metres (default: from the geometry)");
-  command->add_option("--aoi", o->area, "x0,y0,x1,y1: only tiles that meet this rectangle, mosaics cropped to it");
-  command->add_option("--z-range", o->heights, "LOW,HIGH: search these heights only (default: found by itself)");
-  command->add_option("--preset", o->preset, "fast, balanced (default) or accurate");
-  command->add_option("--config", o->config, "TOML file over the preset");
-  command->add_option("--backend", o->backend,
-                      "auto (default: gpu if the machine has a real one, else cpu), cpu, gpu or reference");
-  command->add_option("--memory", o->memory, "Most memory to use, e.g. 4GiB (default: half of the machine's)");
-  command->add_option("--threads", o->threads, "Number of threads (default: all)");
-  command->add_flag(
-      "--no-fill", o->no_fill,
-      "Leave cells empty that the surface hides from the photographs (default: filled from the lower side)");
-  command->add_flag("--planar-fallback", o->planar_fallback,
-                    "Colour cells without height from a horizontal plane, marked as such in the mask");
+  add_map_options(*command, o->map);
   command->add_flag("--fresh", o->fresh, "Start over: throw away what the project folder holds");
   command->add_option("--remove", o->remove,
                       "Take the photographs that match this pattern out of the project, e.g. 'flight2/*'; their files "

@@ -10,6 +10,7 @@
 #include "formats/collect/pose_collector.h"
 #include "formats/csv/camera_columns.h"
 #include "formats/csv/camera_table.h"
+#include "formats/csv/poses_table.h"
 #include "formats/text/csv_table.h"
 
 namespace skysweep::formats {
@@ -99,8 +100,9 @@ std::string ignored_columns(const CsvTable& table, const Names& read) {
 
 }  // namespace
 
-PoseSet read_poses_csv(const std::string& path) {
-  const CsvTable table = read_csv(path);
+PoseSet read_poses_csv(const std::string& path) { return poses_of_table(read_csv(path)); }
+
+PoseSet poses_of_table(const CsvTable& table) {
   if (const Names missing = table.missing(kPosition); !missing.empty())
     throw bad_input(table.where() + ": the column(s) " + enumeration(missing) +
                     " are missing; the header must name image, x, y, z, a rotation and a camera.");
@@ -112,7 +114,7 @@ PoseSet read_poses_csv(const std::string& path) {
   read.insert(read.end(), cameras.columns.begin(), cameras.columns.end());
   table.require_unique(read);
 
-  PoseCollector collector(path);
+  PoseCollector collector(table.path);
   if (std::string sentence = ignored_columns(table, read); !sentence.empty()) collector.note(std::move(sentence));
   const std::size_t name_column = *table.index_of("image");
   for (const CsvTable::Row& row : table.rows) {

@@ -18,6 +18,8 @@ class LineReader {
   bool next();
 
   const std::string& line() const { return line_; }
+  // Whether a line break followed; false only for the last line of a file that ends without one.
+  bool line_is_ended() const { return !file_.eof(); }
   int line_number() const { return line_number_; }
   // "path:line", which begins every message about the current line.
   std::string where() const;
